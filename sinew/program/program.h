@@ -1,0 +1,47 @@
+// The program: an algorithm model lowered from graph to tree. Variables, closures (an operator bound to
+// variables), and the order in which to evaluate them. Everything a back end needs is in here.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sinew::program {
+
+enum class Role : std::uint8_t {
+  kInput,     // written by the caller before each evaluation
+  kConstant,  // known now; Variable::value holds it
+  kInternal,  // written by one closure, read by later ones
+  kState,     // kept from one evaluation to the next; Variable::value is its first value
+};
+
+struct Variable {
+  std::string name;        // QUANTITY.ELEMENT, unique in the program: "position.joint1"
+  std::string iri;         // of the data block in the algorithm model
+  std::string represents;  // IRI of the model element that it belongs to (joint, frame, link)
+  std::string quantity;    // "pose", "twist", "joint-position", ... (algorithm/quantities.h)
+  std::string unit;        // SI, space separated for composite ("UNITLESS M")
+  std::string frame;       // IRI of the frame in which its coordinates are seen; empty for scalars
+  Role role = Role::kInternal;
+  bool output = false;     // handed back to the caller after each evaluation
+  std::uint32_t size = 0;  // numbers
+  std::vector<double> value;  // kConstant, kState: `size` numbers; otherwise empty
+};
+
+struct Closure {
+  std::string operation;  // name in the operator catalogue: "compose-pose"
+  std::string iri;        // of the closure in the algorithm model
+  std::string step;       // IRI of the synthesis step that made it
+  std::string about;      // IRI of the model element that it was made for
+  std::vector<std::uint32_t> arguments;  // variable indices, in the order of the operator's ports
+};
+
+struct Program {
+  std::string name;
+  std::string iri;  // of the algorithm model
+  std::vector<Variable> variables;
+  std::vector<Closure> closures;
+  std::vector<std::uint32_t> schedule;  // closure indices
+};
+
+}  // namespace sinew::program
