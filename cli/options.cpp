@@ -1,0 +1,64 @@
+#include "options.h"
+
+#include <charconv>
+#include <cmath>
+#include <iostream>
+
+#include "sinew/base/error.h"
+
+namespace sinew::cli {
+
+std::optional<int> parse(CLI::App& app, Arguments arguments) {
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them last first
+  try {
+    app.parse(std::move(arguments));
+    return std::nullopt;
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+    return kOk;
+  } catch (const CLI::ParseError& error) {
+    std::cerr << app.get_name() << ": " << error.what() << "\nsee '" << app.get_name()
+              << " --help'\n";
+    return kBadUsage;
+  }
+}
+
+void add_model_options(CLI::App& app, ModelOptions& options) {
+  app.add_option("MODEL", options.files, "Model files: JSON-LD, Turtle, TriG or URDF")->required();
+  app.add_option("--catalog", options.catalogs,
+                 "Folder with a catalog.json of more contexts (may be repeated)");
+  app.add_flag("--lenient", options.lenient, "Terms that no context defines: warn, do not refuse");
+}
+
+void add_query_options(CLI::App& app, QueryOptions& options) {
+  auto* query = app.add_option("--query", options.query_file, "Query model (JSON-LD)");
+  app.add_option("--solver", options.solver, "Named query of solvers/, for example rnea")
+      ->excludes(query);
+  app.add_option("--base", options.base, "Link or frame to start from (default: the only root)");
+  app.add_option("--tip", options.tips, "Link or frame to end at; may be repeated (default: leaves)");
+  app.add_option("--gravity", options.gravity,
+                 "Gravity vector x,y,z in m/s^2 seen from the base (default: the model's)");
+  app.add_flag("--floating", options.floating, "The base moves freely");
+}
+
+std::vector<double> parse_vector3(const std::string& text, const std::string& option) {
+  std::vector<double> values;
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  while (values.size() < 3) {
+    double value = 0;
+    const auto [next, fault] = std::from_chars(at, end, value);
+    if (fault != std::errc{} || !std::isfinite(value)) break;
+    values.push_back(value);
+    at = next;
+    if (at == end || *at != ',') break;
+    ++at;
+  }
+  if (values.size() != 3 || at != end) {
+    throw Error({{}, "", "'" + text + "' is not a vector for " + option,
+                 "write three numbers, for example 0,0,-9.81", Severity::kError, {}});
+  }
+  return values;
+}
+
+}  // namespace sinew::cli
