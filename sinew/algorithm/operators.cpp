@@ -1,0 +1,237 @@
+#include "sinew/algorithm/operators.h"
+
+#include <stdexcept>
+#include <unordered_map>
+
+namespace sinew::algorithm {
+namespace {
+
+#define SINEW_PUBLISHED "https://comp-rob2b.github.io/metamodels/"
+#define SINEW_GEOMETRY SINEW_PUBLISHED "geometry/spatial-operators#"
+#define SINEW_DYNAMICS SINEW_PUBLISHED "newtonian-rigid-body-dynamics/operators#"
+#define SINEW_OWN "https://w3id.org/sinew/operators#"
+
+// ports: "NAME:QUANTITY ... -> NAME:QUANTITY ..."; `NAME*` takes a list.
+// rules: "PORT.SYMBOL = PORT.SYMBOL; ..." with the symbols of, wrt, seen; "PORT.rotation" for a
+// pose that does not move the origin. A port's property has the namespace of the operator's IRI.
+// Bodies: P predecessor, C successor of a joint, R the root. Frames: A, B, D.
+struct Row {
+  std::string_view name, iri, ports, rules, formula;
+};
+
+constexpr Row kRows[] = {
+    // Joint space to Cartesian space. The joint's axis is z of its two frames.
+    {"position-to-pose-revolute", SINEW_OWN "position-to-pose-revolute",
+     "position:joint-position -> pose:pose",
+     "pose.of = position.of; pose.wrt = position.wrt; pose.rotation", "X = [Rz(q) 0]"},
+    {"position-to-pose-prismatic", SINEW_OWN "position-to-pose-prismatic",
+     "position:joint-position -> pose:pose", "pose.of = position.of; pose.wrt = position.wrt",
+     "X = [1 (0 0 q)]"},
+    {"velocity-to-twist-revolute", SINEW_OWN "velocity-to-twist-revolute",
+     "velocity:joint-velocity -> twist:velocity-twist",
+     "twist.of = velocity.of; twist.wrt = velocity.wrt; twist.seen = velocity.seen",
+     "V = (0 0 qd, 0 0 0)"},
+    {"velocity-to-twist-prismatic", SINEW_OWN "velocity-to-twist-prismatic",
+     "velocity:joint-velocity -> twist:velocity-twist",
+     "twist.of = velocity.of; twist.wrt = velocity.wrt; twist.seen = velocity.seen",
+     "V = (0 0 0, 0 0 qd)"},
+    {"acceleration-to-twist-revolute", SINEW_OWN "acceleration-to-twist-revolute",
+     "acceleration:joint-acceleration -> twist:acceleration-twist",
+     "twist.of = acceleration.of; twist.wrt = acceleration.wrt; twist.seen = acceleration.seen",
+     "A = (0 0 qdd, 0 0 0)"},
+    {"acceleration-to-twist-prismatic", SINEW_OWN "acceleration-to-twist-prismatic",
+     "acceleration:joint-acceleration -> twist:acceleration-twist",
+     "twist.of = acceleration.of; twist.wrt = acceleration.wrt; twist.seen = acceleration.seen",
+     "A = (0 0 0, 0 0 qdd)"},
+    {"force-from-wrench-revolute", SINEW_OWN "force-from-wrench-revolute",
+     "wrench:wrench -> force:joint-force", "wrench.of = force.of; wrench.seen = force.seen",
+     "tau = nz"},
+    {"force-from-wrench-prismatic", SINEW_OWN "force-from-wrench-prismatic",
+     "wrench:wrench -> force:joint-force", "wrench.of = force.of; wrench.seen = force.seen",
+     "tau = fz"},
+
+    // Poses. X_AB is the pose of B with respect to A: p_A = R p_B + p.
+    {"compose-pose", SINEW_GEOMETRY "ComposePose", "in1:pose in2:pose -> composite:pose",
+     "in1.of = in2.wrt; composite.wrt = in1.wrt; composite.of = in2.of", "X_AD = X_AB X_BD"},
+    {"invert-pose", SINEW_OWN "invert-pose", "pose:pose -> inverse:pose",
+     "inverse.of = pose.wrt; inverse.wrt = pose.of", "X_BA = X_AB^-1"},
+
+    // Velocity twists.
+    {"transform-velocity-twist-to-distal", SINEW_GEOMETRY "TransformVelocityTwistToDistal",
+     "pose:pose from:velocity-twist -> to:velocity-twist",
+     "from.seen = pose.wrt; to.seen = pose.of; to.of = from.of; to.wrt = from.wrt",
+     "w_B = R' w_A, v_B = R' (v_A + w_A x p)"},
+    {"rotate-velocity-twist", SINEW_OWN "rotate-velocity-twist",
+     "pose:pose from:velocity-twist -> to:velocity-twist",
+     "pose.rotation; from.seen = pose.wrt; to.seen = pose.of; to.of = from.of; to.wrt = from.wrt",
+     "w_B = R' w_A, v_B = R' v_A"},
+    {"add-velocity-twist", SINEW_GEOMETRY "AddVelocityTwist",
+     "in1:velocity-twist in2:velocity-twist -> composite:velocity-twist",
+     "in1.of = in2.wrt; composite.wrt = in1.wrt; composite.of = in2.of; in1.seen = in2.seen; "
+     "composite.seen = in1.seen",
+     "V_RC = V_RP + V_PC"},
+
+    // Classical acceleration twists: the derivative of angular velocity, and the acceleration of
+    // the frame's
+    // origin. `from` and `to` are the acceleration of P; `to` at the origin of B as it moves with
+    // C, so that
+    // adding the relative acceleration of C gives the acceleration of C.
+    //   al_B = R' al_A + (R' w_A) x w_rel
+    //   a_B  = R' (a_A + al_A x p + w_A x (w_A x p)) + 2 (R' w_A) x v_rel
+    {"transform-acceleration-twist-to-distal", SINEW_GEOMETRY "TransformAccelerationTwistToDistal",
+     "pose:pose absolute-velocity:velocity-twist relative-velocity:velocity-twist "
+     "in:acceleration-twist -> out:acceleration-twist",
+     "in.seen = pose.wrt; absolute-velocity.seen = pose.wrt; relative-velocity.seen = pose.of; "
+     "out.seen = pose.of; in.of = absolute-velocity.of; in.wrt = absolute-velocity.wrt; "
+     "relative-velocity.wrt = absolute-velocity.of; out.of = in.of; out.wrt = in.wrt",
+     "al_B = R' al_A + (R' w_A) x w_rel, "
+     "a_B = R' (a_A + al_A x p + w_A x (w_A x p)) + 2 (R' w_A) x v_rel"},
+    // The same between two frames of one body.
+    {"transform-acceleration-twist-to-distal-fixed",
+     SINEW_OWN "transform-acceleration-twist-to-distal-fixed",
+     "pose:pose absolute-velocity:velocity-twist in:acceleration-twist -> out:acceleration-twist",
+     "in.seen = pose.wrt; absolute-velocity.seen = pose.wrt; out.seen = pose.of; "
+     "in.of = absolute-velocity.of; in.wrt = absolute-velocity.wrt; out.of = in.of; out.wrt = "
+     "in.wrt",
+     "al_B = R' al_A, a_B = R' (a_A + al_A x p + w_A x (w_A x p))"},
+    // Across a joint that does not move the origin (p = 0, v_rel = 0).
+    {"rotate-acceleration-twist", SINEW_OWN "rotate-acceleration-twist",
+     "pose:pose absolute-velocity:velocity-twist relative-velocity:velocity-twist "
+     "in:acceleration-twist -> out:acceleration-twist",
+     "pose.rotation; in.seen = pose.wrt; absolute-velocity.seen = pose.wrt; "
+     "relative-velocity.seen = pose.of; out.seen = pose.of; in.of = absolute-velocity.of; "
+     "in.wrt = absolute-velocity.wrt; relative-velocity.wrt = absolute-velocity.of; "
+     "out.of = in.of; out.wrt = in.wrt",
+     "al_B = R' al_A + (R' w_A) x w_rel, a_B = R' a_A"},
+    {"add-acceleration-twist", SINEW_GEOMETRY "AddAccelerationTwist",
+     "in1:acceleration-twist in2:acceleration-twist -> composite:acceleration-twist",
+     "in1.of = in2.wrt; composite.wrt = in1.wrt; composite.of = in2.of; in1.seen = in2.seen; "
+     "composite.seen = in1.seen",
+     "A_RC = A_RP + A_PC"},
+
+    // Wrenches: what the body must feel, and what a joint must transmit.
+    {"newton-euler-wrench", SINEW_OWN "newton-euler-wrench",
+     "rigid-body-inertia:rigid-body-inertia velocity-twist:velocity-twist "
+     "acceleration-twist:acceleration-twist -> wrench:wrench",
+     "velocity-twist.seen = rigid-body-inertia.seen; "
+     "acceleration-twist.seen = rigid-body-inertia.seen; wrench.seen = rigid-body-inertia.seen; "
+     "velocity-twist.of = rigid-body-inertia.of; acceleration-twist.of = rigid-body-inertia.of; "
+     "wrench.of = rigid-body-inertia.of; acceleration-twist.wrt = velocity-twist.wrt",
+     "n = I al + w x (I w) + h x a, f = m a + al x h + w x (w x h)"},
+    {"transform-wrench-to-proximal", SINEW_DYNAMICS "TransformWrenchToProximal",
+     "pose:pose from:wrench -> to:wrench",
+     "from.seen = pose.of; to.seen = pose.wrt; to.of = from.of",
+     "f_A = R f_B, n_A = R n_B + p x f_A"},
+    {"rotate-wrench", SINEW_OWN "rotate-wrench", "pose:pose from:wrench -> to:wrench",
+     "pose.rotation; from.seen = pose.of; to.seen = pose.wrt; to.of = from.of",
+     "f_A = R f_B, n_A = R n_B"},
+    // A body's own wrench and that which a successor hands on to it.
+    {"accumulate-wrench", SINEW_DYNAMICS "AddWrench", "in1:wrench in2:wrench -> out:wrench",
+     "in1.seen = in2.seen; out.seen = in1.seen; out.of = in1.of", "W = W_1 + W_2"},
+};
+
+[[noreturn]] void fault(const Row& row, std::string_view what) {
+  throw std::logic_error("operator catalogue, row " + std::string(row.name) + ": " +
+                         std::string(what));
+}
+
+// Takes the text before the next `separator` (or the rest) off the front of `text`.
+std::string_view take(std::string_view& text, std::string_view separator) {
+  const std::size_t at = text.find(separator);
+  const std::string_view head = text.substr(0, at);
+  text = at == std::string_view::npos ? std::string_view{} : text.substr(at + separator.size());
+  return head;
+}
+
+void parse_ports(const Row& row, Operator& op) {
+  const std::string space = op.iri.substr(0, op.iri.find('#') + 1);
+  Direction direction = Direction::kIn;
+  for (std::string_view rest = row.ports; !rest.empty();) {
+    const std::string_view word = take(rest, " ");
+    if (word == "->") {
+      direction = Direction::kOut;
+      continue;
+    }
+    std::string_view quantity = word;
+    std::string_view name = take(quantity, ":");
+    const bool many = name.ends_with('*');
+    if (many) name.remove_suffix(1);
+    if (find_quantity(quantity) == nullptr) fault(row, "unknown quantity");
+    op.ports.push_back(
+        {std::string(name), space + std::string(name), std::string(quantity), direction, many});
+  }
+}
+
+std::uint8_t port_index(const Row& row, const Operator& op, std::string_view name) {
+  for (std::size_t i = 0; i < op.ports.size(); ++i)
+    if (op.ports[i].name == name) return static_cast<std::uint8_t>(i);
+  fault(row, "a rule names a port that does not exist");
+}
+
+Symbol parse_symbol(const Row& row, const Operator& op, std::string_view text) {
+  const std::uint8_t port = port_index(row, op, take(text, "."));
+  if (text == "of") return {port, Attribute::kOf};
+  if (text == "wrt") return {port, Attribute::kWrt};
+  if (text == "seen") return {port, Attribute::kSeenBy};
+  fault(row, "a rule names a symbol that does not exist");
+}
+
+void parse_rules(const Row& row, Operator& op) {
+  for (std::string_view rest = row.rules; !rest.empty();) {
+    std::string_view right = take(rest, "; ");
+    const std::string_view left = take(right, " = ");
+    if (left.ends_with(".rotation")) {
+      std::string_view port = left;
+      op.rules.push_back({{port_index(row, op, take(port, ".")), {}}, {}, true});
+    } else {
+      op.rules.push_back({parse_symbol(row, op, left), parse_symbol(row, op, right)});
+    }
+  }
+}
+
+struct Catalogue {
+  std::vector<Operator> all;
+  std::unordered_map<std::string_view, const Operator*> by_name, by_iri;
+
+  Catalogue() {
+    all.reserve(std::size(kRows));
+    for (const Row& row : kRows) {
+      Operator& op =
+          all.emplace_back(Operator{row.name, std::string(row.iri), row.formula, {}, {}});
+      parse_ports(row, op);
+      parse_rules(row, op);
+    }
+    for (const Operator& op : all) {
+      if (!by_name.emplace(op.name, &op).second || !by_iri.emplace(op.iri, &op).second)
+        throw std::logic_error("operator catalogue: two rows for " + std::string(op.name));
+    }
+  }
+};
+
+const Catalogue& catalogue() {
+  static const Catalogue instance;
+  return instance;
+}
+
+const Operator* find(const std::unordered_map<std::string_view, const Operator*>& map,
+                     std::string_view key) {
+  const auto found = map.find(key);
+  return found == map.end() ? nullptr : found->second;
+}
+
+std::string to_string(Symbol symbol, const Operator& op) {
+  return op.ports[symbol.port].name + "." + std::string(to_string(symbol.attribute));
+}
+
+}  // namespace
+
+std::span<const Operator> operators() { return catalogue().all; }
+const Operator* find_operator(std::string_view name) { return find(catalogue().by_name, name); }
+const Operator* find_operator_by_iri(std::string_view iri) { return find(catalogue().by_iri, iri); }
+
+std::string to_string(const FrameRule& rule, const Operator& op) {
+  if (rule.rotation_only) return op.ports[rule.left.port].name + " does not move the origin";
+  return to_string(rule.left, op) + " = " + to_string(rule.right, op);
+}
+
+}  // namespace sinew::algorithm

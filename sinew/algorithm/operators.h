@@ -1,0 +1,56 @@
+// The operator catalogue: every pure function that an algorithm may call, as one table. A row gives
+// the ports in the order of the kernel's arguments and the frame rules, which the builder checks
+// whenever a closure is made and the validator whenever an algorithm comes from elsewhere. The
+// numeric function of a row is found by its name in sinew/program/kernels.cpp; a new operator is a
+// new row and a new kernel.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/algorithm/quantities.h"
+
+namespace sinew::algorithm {
+
+enum class Direction : std::uint8_t { kIn, kOut };
+
+struct Port {
+  std::string name;      // "in1"
+  std::string iri;       // the property that links a closure to its data block
+  std::string quantity;  // a row of quantities.cpp
+  Direction direction = Direction::kIn;
+  bool many = false;  // takes an ordered list of data blocks, one argument each
+};
+
+// Which symbol of which port: "in1.of".
+struct Symbol {
+  std::uint8_t port = 0;
+  Attribute attribute = Attribute::kOf;
+};
+
+// left = right, or (when `rotation_only`) "the pose at left.port never moves the origin": demanded
+// of an input, guaranteed of an output.
+struct FrameRule {
+  Symbol left, right;
+  bool rotation_only = false;
+};
+
+struct Operator {
+  std::string_view name;     // "compose-pose"
+  std::string iri;           // published where a published one exists
+  std::string_view formula;  // what it computes
+  std::vector<Port> ports;   // inputs first
+  std::vector<FrameRule> rules;
+};
+
+std::span<const Operator> operators();
+const Operator* find_operator(std::string_view name);        // nullptr when there is none
+const Operator* find_operator_by_iri(std::string_view iri);  // nullptr when there is none
+
+// "in1.of = in2.with-respect-to"
+std::string to_string(const FrameRule& rule, const Operator& op);
+
+}  // namespace sinew::algorithm
