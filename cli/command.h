@@ -1,6 +1,7 @@
-// The subcommands of `sinew`. Each is one source file with one function, and one row of the table in
-// main.cpp. A command prints its result on standard output (or where -o says), everything else on standard
-// error, and returns one of the exit codes below. Faults are thrown as sinew::Error; main prints them.
+// The subcommands of `sinew`. Each is one source file with one function, and one row of the table
+// in main.cpp. A command prints its result on standard output (or where -o says), everything else
+// on standard error, and returns one of the exit codes below. Faults are thrown as sinew::Error;
+// main prints them.
 #pragma once
 
 #include <string>

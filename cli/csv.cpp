@@ -71,14 +71,16 @@ Table read_csv(std::string_view text, const std::string& file) {
       continue;
     }
     if (parts.size() != table.columns.size()) {
-      fail(file, line_number, fmt::format("{} numbers for {} columns", parts.size(), table.columns.size()),
+      fail(file, line_number,
+           fmt::format("{} numbers for {} columns", parts.size(), table.columns.size()),
            "write one number for each column of the header");
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
       table.values.push_back(number(parts[i], file, line_number, table.columns[i]));
     }
   }
-  if (table.columns.empty()) fail(file, 0, "has no header line", "begin with the names of the columns");
+  if (table.columns.empty())
+    fail(file, 0, "has no header line", "begin with the names of the columns");
   return table;
 }
 

@@ -14,8 +14,8 @@ struct Table {
   std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
 };
 
-// Throws Error with file and line: no header, a column named twice or not at all, a line with too few or
-// too many numbers, something that is not a number.
+// Throws Error with file and line: no header, a column named twice or not at all, a line with too
+// few or too many numbers, something that is not a number.
 Table read_csv(std::string_view text, const std::string& file);
 
 std::string write_csv(const Table& table);

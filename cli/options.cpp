@@ -35,7 +35,8 @@ void add_query_options(CLI::App& app, QueryOptions& options) {
   app.add_option("--solver", options.solver, "Named query of solvers/, for example rnea")
       ->excludes(query);
   app.add_option("--base", options.base, "Link or frame to start from (default: the only root)");
-  app.add_option("--tip", options.tips, "Link or frame to end at; may be repeated (default: leaves)");
+  app.add_option("--tip", options.tips,
+                 "Link or frame to end at; may be repeated (default: leaves)");
   app.add_option("--gravity", options.gravity,
                  "Gravity vector x,y,z in m/s^2 seen from the base (default: the model's)");
   app.add_flag("--floating", options.floating, "The base moves freely");
@@ -55,8 +56,12 @@ std::vector<double> parse_vector3(const std::string& text, const std::string& op
     ++at;
   }
   if (values.size() != 3 || at != end) {
-    throw Error({{}, "", "'" + text + "' is not a vector for " + option,
-                 "write three numbers, for example 0,0,-9.81", Severity::kError, {}});
+    throw Error({{},
+                 "",
+                 "'" + text + "' is not a vector for " + option,
+                 "write three numbers, for example 0,0,-9.81",
+                 Severity::kError,
+                 {}});
   }
   return values;
 }
