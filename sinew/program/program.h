@@ -1,5 +1,6 @@
-// The program: an algorithm model lowered from graph to tree. Variables, closures (an operator bound to
-// variables), and the order in which to evaluate them. Everything a back end needs is in here.
+// The program: an algorithm model lowered from graph to tree. Variables, closures (an operator
+// bound to variables), and the order in which to evaluate them. Everything a back end needs is in
+// here.
 #pragma once
 
 #include <cstdint>
@@ -23,16 +24,16 @@ struct Variable {
   std::string unit;        // SI, space separated for composite ("UNITLESS M")
   std::string frame;       // IRI of the frame in which its coordinates are seen; empty for scalars
   Role role = Role::kInternal;
-  bool output = false;     // handed back to the caller after each evaluation
-  std::uint32_t size = 0;  // numbers
+  bool output = false;        // handed back to the caller after each evaluation
+  std::uint32_t size = 0;     // numbers
   std::vector<double> value;  // kConstant, kState: `size` numbers; otherwise empty
 };
 
 struct Closure {
-  std::string operation;  // name in the operator catalogue: "compose-pose"
-  std::string iri;        // of the closure in the algorithm model
-  std::string step;       // IRI of the synthesis step that made it
-  std::string about;      // IRI of the model element that it was made for
+  std::string operation;                 // name in the operator catalogue: "compose-pose"
+  std::string iri;                       // of the closure in the algorithm model
+  std::string step;                      // IRI of the synthesis step that made it
+  std::string about;                     // IRI of the model element that it was made for
   std::vector<std::uint32_t> arguments;  // variable indices, in the order of the operator's ports
 };
 

@@ -1,0 +1,88 @@
+// How the values of `math` lie in memory as consecutive numbers: the layouts of
+// docs/architecture.md.
+//   Layout<T>::kSize, Layout<T>::load(const S*), Layout<T>::store(const T&, S*)
+#pragma once
+
+#include <cstdint>
+
+#include "sinew/math/inertia.h"
+#include "sinew/math/pose.h"
+#include "sinew/math/twist.h"
+#include "sinew/math/wrench.h"
+
+namespace sinew::math {
+
+// A scalar is one number.
+template <typename T>
+struct Layout {
+  static constexpr std::uint32_t kSize = 1;
+  static T load(const T* at) { return *at; }
+  static void store(const T& value, T* at) { *at = value; }
+};
+
+// Row-major 3x4 [R p].
+template <typename S>
+struct Layout<Pose<S>> {
+  static constexpr std::uint32_t kSize = 12;
+  static Pose<S> load(const S* at) {
+    return {{at[0], at[1], at[2], at[4], at[5], at[6], at[8], at[9], at[10]},
+            {at[3], at[7], at[11]}};
+  }
+  static void store(const Pose<S>& X, S* at) {
+    at[0] = X.R.xx, at[1] = X.R.xy, at[2] = X.R.xz, at[3] = X.p.x;
+    at[4] = X.R.yx, at[5] = X.R.yy, at[6] = X.R.yz, at[7] = X.p.y;
+    at[8] = X.R.zx, at[9] = X.R.zy, at[10] = X.R.zz, at[11] = X.p.z;
+  }
+};
+
+// Angular (moment) first.
+template <typename S>
+struct Layout<VelocityTwist<S>> {
+  static constexpr std::uint32_t kSize = 6;
+  static VelocityTwist<S> load(const S* at) {
+    return {{at[0], at[1], at[2]}, {at[3], at[4], at[5]}};
+  }
+  static void store(const VelocityTwist<S>& V, S* at) {
+    at[0] = V.angular.x, at[1] = V.angular.y, at[2] = V.angular.z;
+    at[3] = V.linear.x, at[4] = V.linear.y, at[5] = V.linear.z;
+  }
+};
+
+template <typename S>
+struct Layout<AccelerationTwist<S>> {
+  static constexpr std::uint32_t kSize = 6;
+  static AccelerationTwist<S> load(const S* at) {
+    return {{at[0], at[1], at[2]}, {at[3], at[4], at[5]}};
+  }
+  static void store(const AccelerationTwist<S>& A, S* at) {
+    at[0] = A.angular.x, at[1] = A.angular.y, at[2] = A.angular.z;
+    at[3] = A.linear.x, at[4] = A.linear.y, at[5] = A.linear.z;
+  }
+};
+
+template <typename S>
+struct Layout<Wrench<S>> {
+  static constexpr std::uint32_t kSize = 6;
+  static Wrench<S> load(const S* at) { return {{at[0], at[1], at[2]}, {at[3], at[4], at[5]}}; }
+  static void store(const Wrench<S>& W, S* at) {
+    at[0] = W.moment.x, at[1] = W.moment.y, at[2] = W.moment.z;
+    at[3] = W.force.x, at[4] = W.force.y, at[5] = W.force.z;
+  }
+};
+
+// m, m c (3), Ixx Ixy Ixz Iyy Iyz Izz.
+template <typename S>
+struct Layout<RigidBodyInertia<S>> {
+  static constexpr std::uint32_t kSize = 10;
+  static RigidBodyInertia<S> load(const S* at) {
+    return {at[0], {at[1], at[2], at[3]}, {at[4], at[5], at[6], at[7], at[8], at[9]}};
+  }
+  static void store(const RigidBodyInertia<S>& I, S* at) {
+    at[0] = I.mass;
+    at[1] = I.first_moment.x, at[2] = I.first_moment.y, at[3] = I.first_moment.z;
+    at[4] = I.rotational.xx, at[5] = I.rotational.xy, at[6] = I.rotational.xz;
+    at[7] = I.rotational.yy, at[8] = I.rotational.yz, at[9] = I.rotational.zz;
+  }
+};
+
+}  // namespace sinew::math

@@ -1,0 +1,95 @@
+// The C support library: the functions of `math` for double, with C linkage. It needs no C++
+// runtime.
+#include "sinew/math/sinew_math.h"
+
+#include "sinew/math/inertia.h"
+#include "sinew/math/joint.h"
+#include "sinew/math/layout.h"
+
+namespace {
+
+using namespace sinew::math;
+
+template <template <typename> typename T>
+T<double> load(const double* at) {
+  return Layout<T<double>>::load(at);
+}
+
+template <typename T>
+void store(const T& value, double* at) {
+  Layout<T>::store(value, at);
+}
+
+}  // namespace
+
+// clang-format off
+void sinew_position_to_pose_revolute(const double* q, double* X) { store(revolute_pose(*q), X); }
+void sinew_position_to_pose_prismatic(const double* q, double* X) { store(prismatic_pose(*q), X); }
+void sinew_velocity_to_twist_revolute(const double* qd, double* V) { store(revolute_velocity(*qd), V); }
+void sinew_velocity_to_twist_prismatic(const double* qd, double* V) { store(prismatic_velocity(*qd), V); }
+void sinew_acceleration_to_twist_revolute(const double* qdd, double* A) { store(revolute_acceleration(*qdd), A); }
+void sinew_acceleration_to_twist_prismatic(const double* qdd, double* A) { store(prismatic_acceleration(*qdd), A); }
+void sinew_force_from_wrench_revolute(const double* W, double* tau) { store(revolute_force(load<Wrench>(W)), tau); }
+void sinew_force_from_wrench_prismatic(const double* W, double* tau) { store(prismatic_force(load<Wrench>(W)), tau); }
+// clang-format on
+
+void sinew_compose_pose(const double* X_AB, const double* X_BC, double* X_AC) {
+  store(compose(load<Pose>(X_AB), load<Pose>(X_BC)), X_AC);
+}
+
+void sinew_invert_pose(const double* X_AB, double* X_BA) { store(invert(load<Pose>(X_AB)), X_BA); }
+
+void sinew_transform_velocity_twist_to_distal(const double* X_AB, const double* V_A, double* V_B) {
+  store(transform_to_distal(load<Pose>(X_AB), load<VelocityTwist>(V_A)), V_B);
+}
+
+void sinew_transform_acceleration_twist_to_distal_fixed(const double* X_AB, const double* V_A,
+                                                        const double* A_A, double* A_B) {
+  store(transform_to_distal_fixed(load<Pose>(X_AB), load<VelocityTwist>(V_A),
+                                  load<AccelerationTwist>(A_A)),
+        A_B);
+}
+
+void sinew_transform_acceleration_twist_to_distal(const double* X_AB, const double* V_A,
+                                                  const double* V_rel, const double* A_A,
+                                                  double* A_B) {
+  store(transform_to_distal(load<Pose>(X_AB), load<VelocityTwist>(V_A), load<VelocityTwist>(V_rel),
+                            load<AccelerationTwist>(A_A)),
+        A_B);
+}
+
+void sinew_add_velocity_twist(const double* a, const double* b, double* c) {
+  store(add(load<VelocityTwist>(a), load<VelocityTwist>(b)), c);
+}
+
+void sinew_add_acceleration_twist(const double* a, const double* b, double* c) {
+  store(add(load<AccelerationTwist>(a), load<AccelerationTwist>(b)), c);
+}
+
+void sinew_rotate_velocity_twist(const double* X_AB, const double* V_A, double* V_B) {
+  store(rotate(load<Pose>(X_AB), load<VelocityTwist>(V_A)), V_B);
+}
+
+void sinew_rotate_acceleration_twist(const double* X_AB, const double* V_A, const double* V_rel,
+                                     const double* A_A, double* A_B) {
+  store(rotate(load<Pose>(X_AB), load<VelocityTwist>(V_A), load<VelocityTwist>(V_rel),
+               load<AccelerationTwist>(A_A)),
+        A_B);
+}
+
+void sinew_newton_euler_wrench(const double* I, const double* V, const double* A, double* W) {
+  store(newton_euler(load<RigidBodyInertia>(I), load<VelocityTwist>(V), load<AccelerationTwist>(A)),
+        W);
+}
+
+void sinew_transform_wrench_to_proximal(const double* X_AB, const double* W_B, double* W_A) {
+  store(transform_to_proximal(load<Pose>(X_AB), load<Wrench>(W_B)), W_A);
+}
+
+void sinew_accumulate_wrench(const double* a, const double* b, double* c) {
+  store(add(load<Wrench>(a), load<Wrench>(b)), c);
+}
+
+void sinew_rotate_wrench(const double* X_AB, const double* W_B, double* W_A) {
+  store(rotate(load<Pose>(X_AB), load<Wrench>(W_B)), W_A);
+}

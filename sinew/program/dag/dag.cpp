@@ -1,0 +1,293 @@
+#include "sinew/program/dag/dag.h"
+
+#include <bit>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "sinew/base/error.h"
+
+namespace sinew::program {
+namespace {
+
+constexpr std::uint64_t kMix =
+    0x9e3779b97f4a7c15ULL;  // 2^64 / golden ratio: spreads consecutive keys
+
+std::uint64_t hash(const Node& node) {
+  std::uint64_t h = static_cast<std::uint64_t>(node.op);
+  for (const std::uint64_t part :
+       {std::uint64_t{node.a.bits}, std::uint64_t{node.b.bits}, std::uint64_t{node.c.bits},
+        std::uint64_t{node.index}, std::bit_cast<std::uint64_t>(node.value)}) {
+    h = (h ^ part) * kMix;
+    h ^= h >> 29U;
+  }
+  return h;
+}
+
+bool same(const Node& x, const Node& y) {
+  return x.op == y.op && x.a == y.a && x.b == y.b && x.c == y.c && x.index == y.index &&
+         std::bit_cast<std::uint64_t>(x.value) == std::bit_cast<std::uint64_t>(y.value);
+}
+
+}  // namespace
+
+int arity(Op op) {
+  switch (op) {
+    case Op::kConstant:
+    case Op::kInput:
+      return 0;
+    case Op::kSqrt:
+    case Op::kSin:
+    case Op::kCos:
+      return 1;
+    case Op::kAdd:
+    case Op::kMultiply:
+    case Op::kDivide:
+    case Op::kLess:
+      return 2;
+    case Op::kFma:
+    case Op::kSelect:
+      return 3;
+  }
+  return 0;
+}
+
+Dag::Dag() : table_(1U << 10U, 0) {}
+
+void Dag::grow() {
+  table_.assign(table_.size() * 2, 0);
+  const std::uint64_t mask = table_.size() - 1;
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+    std::uint64_t at = hash(nodes_[i]) & mask;
+    while (table_[at] != 0) at = (at + 1) & mask;
+    table_[at] = i + 1;
+  }
+}
+
+Ref Dag::intern(Node node) {
+  const std::uint64_t mask = table_.size() - 1;
+  std::uint64_t at = hash(node) & mask;
+  while (table_[at] != 0) {
+    const std::uint32_t found = table_[at] - 1;
+    if (same(nodes_[found], node)) return Ref::of(found);
+    at = (at + 1) & mask;
+  }
+  if (nodes_.size() >= kMaximumNodes) {
+    throw Error(Problem{
+        {},
+        {},
+        "the program expands to more than " + std::to_string(kMaximumNodes) + " scalar operations",
+        "ask for fewer results at once",
+        Severity::kError,
+        {}});
+  }
+  node.origin = arity(node.op) == 0 ? kNoOrigin : origin_;
+  const auto index = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back(node);
+  table_[at] = index + 1;
+  if (nodes_.size() * 2 > table_.size()) grow();
+  return Ref::of(index);
+}
+
+bool Dag::is_constant(Ref ref, double value) const {
+  return is_constant(ref) && constant_value(ref) == value;
+}
+
+double Dag::constant_value(Ref ref) const {
+  const double value = node(ref).value;
+  return ref.negative() ? -value : value;
+}
+
+Ref Dag::constant(double value) {
+  const bool negative = value < 0.0;
+  Node node;
+  node.value = value == 0.0 ? 0.0 : (negative ? -value : value);  // also turns -0 into 0
+  return intern(node).negated_if(negative);
+}
+
+Ref Dag::input(std::uint32_t index) {
+  Node node;
+  node.op = Op::kInput;
+  node.index = index;
+  return intern(node);
+}
+
+Ref Dag::add(Ref a, Ref b) {
+  if (is_constant(a) && is_constant(b)) {
+    const double x = constant_value(a);
+    const double y = constant_value(b);
+    const double sum = x + y;
+    const bool noise = std::abs(sum) <= kCancellation * std::fmax(std::abs(x), std::abs(y));
+    return constant(noise ? 0.0 : sum);
+  }
+  if (is_constant(a, 0.0)) return b;
+  if (is_constant(b, 0.0)) return a;
+  if (a == -b) return constant(0.0);
+  if (a == b) return multiply(constant(2.0), a);
+
+  // c1 + (c2 + x) = (c1 + c2) + x
+  if (is_constant(b)) std::swap(a, b);
+  if (is_constant(a) && node(b).op == Op::kAdd && is_constant(node(b).a)) {
+    const Node inner = node(b);
+    const bool flip = b.negative();
+    return add(add(a, inner.a.negated_if(flip)), inner.b.negated_if(flip));
+  }
+  if (is_constant(a) && node(b).op == Op::kAdd && is_constant(node(b).b)) {
+    const Node inner = node(b);
+    const bool flip = b.negative();
+    return add(add(a, inner.b.negated_if(flip)), inner.a.negated_if(flip));
+  }
+
+  // c1 x + c2 x = (c1 + c2) x, also where one of the factors is 1
+  const auto scaled = [this](Ref r) -> std::pair<double, Ref> {
+    const Node& n = node(r);
+    if (n.op == Op::kMultiply && is_constant(n.a)) {
+      return {r.negative() ? -constant_value(n.a) : constant_value(n.a), n.b};
+    }
+    return {r.negative() ? -1.0 : 1.0, r.magnitude()};
+  };
+  const auto [ca, xa] = scaled(a);
+  const auto [cb, xb] = scaled(b);
+  if (xa == xb) return multiply(add(constant(ca), constant(cb)), xa);
+
+  // Operands by index; the first one positive.
+  if (a.node() > b.node()) std::swap(a, b);
+  const bool flip = a.negative();
+  Node node;
+  node.op = Op::kAdd;
+  node.a = a.negated_if(flip);
+  node.b = b.negated_if(flip);
+  return intern(node).negated_if(flip);
+}
+
+Ref Dag::multiply(Ref a, Ref b) {
+  if (is_constant(a) && is_constant(b)) return constant(constant_value(a) * constant_value(b));
+  if (is_constant(b)) std::swap(a, b);
+  if (is_constant(a, 0.0)) return a;
+  if (is_constant(a, 1.0)) return b;
+  if (is_constant(a, -1.0)) return -b;
+  const bool flip = a.negative() != b.negative();
+  a = a.magnitude();
+  b = b.magnitude();
+
+  // c1 (c2 x) = (c1 c2) x
+  if (is_constant(a) && node(b).op == Op::kMultiply && is_constant(node(b).a)) {
+    const Node inner = node(b);
+    return multiply(multiply(a, inner.a), inner.b).negated_if(flip);
+  }
+  // A constant factor comes first; otherwise operands by index.
+  if (!is_constant(a) && a.node() > b.node()) std::swap(a, b);
+  Node node;
+  node.op = Op::kMultiply;
+  node.a = a;
+  node.b = b;
+  return intern(node).negated_if(flip);
+}
+
+Ref Dag::fma(Ref a, Ref b, Ref c) {
+  const bool trivial = is_constant(a, 0.0) || is_constant(b, 0.0) || is_constant(c, 0.0) ||
+                       is_constant(a, 1.0) || is_constant(b, 1.0) || is_constant(a, -1.0) ||
+                       is_constant(b, -1.0) || (is_constant(a) && is_constant(b));
+  if (trivial) return add(multiply(a, b), c);
+  const bool product_negative = a.negative() != b.negative();
+  a = a.magnitude();
+  b = b.magnitude();
+  if (is_constant(b) || (!is_constant(a) && a.node() > b.node())) std::swap(a, b);
+  // The product is positive; the sign of the addend tells a b + c from a b - c.
+  Node node;
+  node.op = Op::kFma;
+  node.a = a;
+  node.b = b;
+  node.c = c.negated_if(product_negative);
+  return intern(node).negated_if(product_negative);
+}
+
+Ref Dag::divide(Ref a, Ref b) {
+  if (is_constant(b)) return multiply(a, constant(1.0 / constant_value(b)));
+  if (is_constant(a, 0.0)) return a;
+  const bool flip = a.negative() != b.negative();
+  a = a.magnitude();
+  b = b.magnitude();
+  if (a == b) return constant(flip ? -1.0 : 1.0);
+  Node node;
+  node.op = Op::kDivide;
+  node.a = a;
+  node.b = b;
+  return intern(node).negated_if(flip);
+}
+
+Ref Dag::sqrt(Ref a) {
+  if (is_constant(a)) return constant(std::sqrt(constant_value(a)));
+  Node node;
+  node.op = Op::kSqrt;
+  node.a = a;
+  return intern(node);
+}
+
+Ref Dag::sin(Ref a) {
+  if (is_constant(a)) return constant(std::sin(constant_value(a)));
+  Node node;
+  node.op = Op::kSin;
+  node.a = a.magnitude();
+  return intern(node).negated_if(a.negative());
+}
+
+Ref Dag::cos(Ref a) {
+  if (is_constant(a)) return constant(std::cos(constant_value(a)));
+  Node node;
+  node.op = Op::kCos;
+  node.a = a.magnitude();
+  return intern(node);
+}
+
+Ref Dag::less(Ref a, Ref b) {
+  if (is_constant(a) && is_constant(b)) {
+    return constant(constant_value(a) < constant_value(b) ? 1.0 : 0.0);
+  }
+  Node node;
+  node.op = Op::kLess;
+  node.a = a;
+  node.b = b;
+  return intern(node);
+}
+
+Ref Dag::select(Ref condition, Ref if_true, Ref if_false) {
+  if (is_constant(condition)) return constant_value(condition) != 0.0 ? if_true : if_false;
+  if (if_true == if_false) return if_true;
+  Node node;
+  node.op = Op::kSelect;
+  node.a = condition;
+  node.b = if_true;
+  node.c = if_false;
+  return intern(node);
+}
+
+Ref Dag::make(const Node& like, Ref a, Ref b, Ref c) {
+  switch (like.op) {
+    case Op::kConstant:
+      return constant(like.value);
+    case Op::kInput:
+      return input(like.index);
+    case Op::kAdd:
+      return add(a, b);
+    case Op::kMultiply:
+      return multiply(a, b);
+    case Op::kFma:
+      return fma(a, b, c);
+    case Op::kDivide:
+      return divide(a, b);
+    case Op::kSqrt:
+      return sqrt(a);
+    case Op::kSin:
+      return sin(a);
+    case Op::kCos:
+      return cos(a);
+    case Op::kLess:
+      return less(a, b);
+    case Op::kSelect:
+      return select(a, b, c);
+  }
+  return {};
+}
+
+}  // namespace sinew::program

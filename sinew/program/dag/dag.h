@@ -1,0 +1,109 @@
+// The scalar data-flow graph: what a program computes, number by number, once every operator has
+// been expanded and every constant is known. The passes and the code generators work on it.
+//
+// A node is made once: asking for the same operation on the same operands returns the same node
+// (value numbering). Its constructor folds constants, drops operations with 0 and 1, and moves
+// signs out: a Ref is a node with a sign, so that a negation costs nothing and x - y, y - x, -x + y
+// are one node.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace sinew::program {
+
+enum class Op : std::uint8_t {
+  kConstant,  // value, never negative
+  kInput,     // index
+  kAdd,       // a + b
+  kMultiply,  // a * b
+  kFma,       // a * b + c, rounded once where the machine can
+  kDivide,    // a / b
+  kSqrt,      // sqrt(a)
+  kSin,       // sin(a)
+  kCos,       // cos(a)
+  kLess,      // 1 if a < b, else 0; only the condition of kSelect
+  kSelect,    // b if a, else c
+};
+
+// A node, or its negative.
+struct Ref {
+  std::uint32_t bits = 0;
+
+  static Ref of(std::uint32_t node, bool negative = false) {
+    return {node << 1U | static_cast<std::uint32_t>(negative)};
+  }
+  std::uint32_t node() const { return bits >> 1U; }
+  bool negative() const { return (bits & 1U) != 0; }
+  Ref magnitude() const { return {bits & ~1U}; }
+  Ref operator-() const { return {bits ^ 1U}; }
+  Ref negated_if(bool negate) const { return {bits ^ static_cast<std::uint32_t>(negate)}; }
+  bool operator==(const Ref&) const = default;
+};
+
+// The closure that asked for a node first; kNoOrigin where there is none (constants, inputs).
+inline constexpr std::uint32_t kNoOrigin = 0xffffffffU;
+
+struct Node {
+  Op op = Op::kConstant;
+  Ref a, b, c;                       // operands, as many as the operation takes
+  double value = 0.0;                // kConstant
+  std::uint32_t index = 0;           // kInput
+  std::uint32_t origin = kNoOrigin;  // index of a closure of the program
+};
+
+// Number of operands that an operation takes.
+int arity(Op op);
+
+class Dag {
+ public:
+  static constexpr std::uint32_t kMaximumNodes = 1U << 24U;  // beyond it: Error
+  // A sum of constants smaller than this share of its largest term is rounding noise and becomes
+  // zero.
+  static constexpr double kCancellation = 1e-13;
+
+  Dag();
+
+  Ref constant(double value);
+  Ref input(std::uint32_t index);
+  Ref add(Ref a, Ref b);
+  Ref subtract(Ref a, Ref b) { return add(a, -b); }
+  Ref multiply(Ref a, Ref b);
+  Ref fma(Ref a, Ref b, Ref c);
+  Ref divide(Ref a, Ref b);
+  Ref sqrt(Ref a);
+  Ref sin(Ref a);
+  Ref cos(Ref a);
+  Ref less(Ref a, Ref b);
+  Ref select(Ref condition, Ref if_true, Ref if_false);
+  // The operation of `like` on other operands.
+  Ref make(const Node& like, Ref a, Ref b, Ref c);
+
+  // Nodes that are made from now on come from this closure.
+  void set_origin(std::uint32_t closure) { origin_ = closure; }
+
+  const Node& node(Ref ref) const { return nodes_[ref.node()]; }
+  const Node& node(std::uint32_t index) const { return nodes_[index]; }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
+  bool is_constant(Ref ref) const { return node(ref).op == Op::kConstant; }
+  bool is_constant(Ref ref, double value) const;
+  double constant_value(Ref ref) const;  // precondition: is_constant(ref)
+
+ private:
+  Ref intern(Node node);
+  void grow();
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> table_;  // open addressing; node + 1, 0 is free
+  std::uint32_t origin_ = kNoOrigin;
+};
+
+// A graph and what is wanted from it.
+struct Computation {
+  Dag dag;
+  std::uint32_t inputs = 0;          // number of inputs; some may be unused
+  std::vector<Ref> results;          // in the order in which the caller wants them
+  std::vector<std::uint32_t> order;  // nodes to compute, operands first; empty: by index
+};
+
+}  // namespace sinew::program

@@ -1,0 +1,43 @@
+#include "sinew/program/dead_closures.h"
+
+#include "sinew/program/kernels.h"
+
+namespace sinew::program {
+
+Program without_dead_closures(const Program& program) {
+  std::vector<bool> needed(program.variables.size(), false);
+  for (std::size_t i = 0; i < needed.size(); ++i) {
+    const Variable& v = program.variables[i];
+    needed[i] = v.output || v.role == Role::kState || v.role == Role::kInput;
+  }
+  std::vector<bool> live(program.schedule.size(), false);
+  for (std::size_t s = program.schedule.size(); s-- > 0;) {
+    const Closure& closure = program.closures[program.schedule[s]];
+    const Kernel& kernel = *find_kernel(closure.operation);
+    for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
+      if (kernel.ports[i].output && needed[closure.arguments[i]]) live[s] = true;
+    }
+    if (!live[s]) continue;
+    for (const std::uint32_t argument : closure.arguments) needed[argument] = true;
+  }
+
+  Program result;
+  result.name = program.name;
+  result.iri = program.iri;
+  std::vector<std::uint32_t> moved(program.variables.size(), 0);
+  for (std::size_t i = 0; i < needed.size(); ++i) {
+    if (!needed[i]) continue;
+    moved[i] = static_cast<std::uint32_t>(result.variables.size());
+    result.variables.push_back(program.variables[i]);
+  }
+  for (std::size_t s = 0; s < live.size(); ++s) {
+    if (!live[s]) continue;
+    Closure closure = program.closures[program.schedule[s]];
+    for (std::uint32_t& argument : closure.arguments) argument = moved[argument];
+    result.schedule.push_back(static_cast<std::uint32_t>(result.closures.size()));
+    result.closures.push_back(std::move(closure));
+  }
+  return result;
+}
+
+}  // namespace sinew::program

@@ -1,0 +1,137 @@
+#include "sinew/program/kernels.h"
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "sinew/math/inertia.h"
+#include "sinew/math/joint.h"
+#include "sinew/math/layout.h"
+
+namespace sinew::program {
+namespace {
+
+using namespace sinew::math;
+
+// Reads a row's types off its function: R f(A...) has one port for each argument, then one for the
+// result, with the sizes of their layouts.
+template <typename Signature>
+struct Call;
+
+template <typename F, typename R, typename... A>
+struct Call<R (F::*)(A...) const> {
+  static constexpr std::array<Port, sizeof...(A) + 1> kPorts = {
+      Port{Layout<std::remove_cvref_t<A>>::kSize, false}..., Port{Layout<R>::kSize, true}};
+
+  template <typename S>
+  static void apply(S* const* arguments) {
+    [arguments]<std::size_t... I>(std::index_sequence<I...>) {
+      const R result = F{}(Layout<std::remove_cvref_t<A>>::load(arguments[I])...);
+      Layout<R>::store(result, arguments[sizeof...(I)]);
+    }
+    (std::index_sequence_for<A...>{});
+  }
+};
+
+template <typename F>
+Kernel row(std::string_view operation, F) {
+  using Numeric = Call<decltype(&F::template operator()<double>)>;
+  using Tracing = Call<decltype(&F::template operator()<Traced>)>;
+  return {operation, Numeric::kPorts, &Numeric::template apply<double>,
+          &Tracing::template apply<Traced>};
+}
+
+// Operators of the same name in the catalogue (algorithm/operators.cpp) have the same ports; a test
+// compares the two tables.
+std::vector<Kernel> make_kernels() {
+  std::vector<Kernel> rows = {
+      row("position-to-pose-revolute", []<typename S>(const S& q) { return revolute_pose(q); }),
+      row("position-to-pose-prismatic", []<typename S>(const S& q) { return prismatic_pose(q); }),
+      row("velocity-to-twist-revolute",
+          []<typename S>(const S& qd) { return revolute_velocity(qd); }),
+      row("velocity-to-twist-prismatic",
+          []<typename S>(const S& qd) { return prismatic_velocity(qd); }),
+      row("acceleration-to-twist-revolute",
+          []<typename S>(const S& qdd) { return revolute_acceleration(qdd); }),
+      row("acceleration-to-twist-prismatic",
+          []<typename S>(const S& qdd) { return prismatic_acceleration(qdd); }),
+      row("force-from-wrench-revolute",
+          []<typename S>(const Wrench<S>& W) { return revolute_force(W); }),
+      row("force-from-wrench-prismatic",
+          []<typename S>(const Wrench<S>& W) { return prismatic_force(W); }),
+
+      row("compose-pose",
+          []<typename S>(const Pose<S>& X_AB, const Pose<S>& X_BC) { return compose(X_AB, X_BC); }),
+      row("invert-pose", []<typename S>(const Pose<S>& X_AB) { return invert(X_AB); }),
+
+      row("transform-velocity-twist-to-distal",
+          []<typename S>(const Pose<S>& X_AB, const VelocityTwist<S>& V_A) {
+            return transform_to_distal(X_AB, V_A);
+          }),
+      row("transform-acceleration-twist-to-distal",
+          []<typename S>(const Pose<S>& X_AB, const VelocityTwist<S>& V_A,
+                         const VelocityTwist<S>& V_rel, const AccelerationTwist<S>& A_A) {
+            return transform_to_distal(X_AB, V_A, V_rel, A_A);
+          }),
+      row("transform-acceleration-twist-to-distal-fixed",
+          []<typename S>(const Pose<S>& X_AB, const VelocityTwist<S>& V_A,
+                         const AccelerationTwist<S>& A_A) {
+            return transform_to_distal_fixed(X_AB, V_A, A_A);
+          }),
+      row("add-velocity-twist", []<typename S>(const VelocityTwist<S>& a,
+                                               const VelocityTwist<S>& b) { return add(a, b); }),
+      row("add-acceleration-twist",
+          []<typename S>(const AccelerationTwist<S>& a, const AccelerationTwist<S>& b) {
+            return add(a, b);
+          }),
+      row("rotate-velocity-twist",
+          []<typename S>(const Pose<S>& X_AB, const VelocityTwist<S>& V_A) {
+            return rotate(X_AB, V_A);
+          }),
+      row("rotate-acceleration-twist",
+          []<typename S>(const Pose<S>& X_AB, const VelocityTwist<S>& V_A,
+                         const VelocityTwist<S>& V_rel, const AccelerationTwist<S>& A_A) {
+            return rotate(X_AB, V_A, V_rel, A_A);
+          }),
+
+      row("newton-euler-wrench",
+          []<typename S>(const RigidBodyInertia<S>& I, const VelocityTwist<S>& V,
+                         const AccelerationTwist<S>& A) { return newton_euler(I, V, A); }),
+      row("transform-wrench-to-proximal",
+          []<typename S>(const Pose<S>& X_AB, const Wrench<S>& W_B) {
+            return transform_to_proximal(X_AB, W_B);
+          }),
+      row("accumulate-wrench",
+          []<typename S>(const Wrench<S>& a, const Wrench<S>& b) { return add(a, b); }),
+      row("rotate-wrench",
+          []<typename S>(const Pose<S>& X_AB, const Wrench<S>& W_B) { return rotate(X_AB, W_B); }),
+  };
+  std::sort(rows.begin(), rows.end(),
+            [](const Kernel& a, const Kernel& b) { return a.operation < b.operation; });
+  return rows;
+}
+
+}  // namespace
+
+std::span<const Kernel> kernels() {
+  static const std::vector<Kernel> rows = make_kernels();
+  return rows;
+}
+
+const Kernel* find_kernel(std::string_view operation) {
+  const std::span<const Kernel> rows = kernels();
+  const auto at = std::lower_bound(
+      rows.begin(), rows.end(), operation,
+      [](const Kernel& kernel, std::string_view name) { return kernel.operation < name; });
+  return at != rows.end() && at->operation == operation ? &*at : nullptr;
+}
+
+std::string support_function(std::string_view operation) {
+  std::string name = "sinew_" + std::string(operation);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+}  // namespace sinew::program

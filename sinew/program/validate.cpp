@@ -1,0 +1,200 @@
+#include "sinew/program/validate.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <unordered_map>
+
+#include "sinew/program/kernels.h"
+
+namespace sinew::program {
+namespace {
+
+constexpr std::uint32_t kNobody = 0xffffffffU;
+
+class Validator {
+ public:
+  Validator(const Program& program, Report& report)
+      : program_(program), report_(report), writer_(program.variables.size(), kNobody) {}
+
+  void run() {
+    for (const Variable& variable : program_.variables) check_variable(variable);
+    check_names();
+    std::vector<bool> sound(program_.closures.size());
+    for (std::size_t i = 0; i < sound.size(); ++i) sound[i] = check_closure(program_.closures[i]);
+    check_schedule(sound);
+    check_outputs();
+  }
+
+ private:
+  void fault(const std::string& iri, std::string what, std::string remedy) {
+    report_.error({}, iri, std::move(what), std::move(remedy));
+  }
+
+  static std::string label(const Variable& variable) {
+    return variable.iri.empty() || variable.name.empty() ? variable.name + variable.iri
+                                                         : variable.name;
+  }
+
+  void check_variable(const Variable& v) {
+    const bool valued = v.role == Role::kConstant || v.role == Role::kState;
+    if (v.name.empty()) fault(v.iri, "variable without a name", "name it QUANTITY.ELEMENT");
+    if (v.size == 0) {
+      fault(v.iri, fmt::format("variable '{}' holds no numbers", v.name), "give it a size");
+    }
+    if (valued && v.value.size() != v.size) {
+      fault(
+          v.iri,
+          fmt::format("variable '{}' has {} values for {} numbers", v.name, v.value.size(), v.size),
+          "a constant or state has one value for each number");
+    }
+    if (!valued && !v.value.empty()) {
+      fault(v.iri,
+            fmt::format("variable '{}' has values but is neither constant nor state", v.name),
+            "leave them out, or give it the role 'constant'");
+    }
+    for (const double value : v.value) {
+      if (std::isfinite(value)) continue;
+      fault(v.iri, fmt::format("variable '{}' has a value that is not finite", v.name),
+            "constants and first values of states are finite numbers");
+      break;
+    }
+  }
+
+  void check_names() {
+    std::unordered_map<std::string_view, const Variable*> seen;
+    for (const Variable& v : program_.variables) {
+      if (!seen.emplace(v.name, &v).second) {
+        fault(v.iri, fmt::format("a second variable is named '{}'", v.name),
+              "names are unique in a program");
+      }
+    }
+  }
+
+  // Whether its operator and arguments fit, so that its reads and writes can be followed.
+  bool check_closure(const Closure& closure) {
+    const Kernel* kernel = find_kernel(closure.operation);
+    if (kernel == nullptr) {
+      fault(closure.iri, fmt::format("unknown operator '{}'", closure.operation),
+            "use an operator of the catalogue");
+      return false;
+    }
+    if (closure.arguments.size() != kernel->ports.size()) {
+      fault(closure.iri,
+            fmt::format("operator '{}' is bound to {} variables", closure.operation,
+                        closure.arguments.size()),
+            fmt::format("it has {} ports", kernel->ports.size()));
+      return false;
+    }
+    bool sound = true;
+    for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
+      const std::uint32_t index = closure.arguments[i];
+      if (index >= program_.variables.size()) {
+        fault(closure.iri,
+              fmt::format("argument {} of '{}' is variable {}", i + 1, closure.operation, index),
+              fmt::format("there are {} variables", program_.variables.size()));
+        sound = false;
+        continue;
+      }
+      const Variable& v = program_.variables[index];
+      if (v.size != kernel->ports[i].size) {
+        fault(closure.iri,
+              fmt::format("argument {} of '{}' is '{}' <{}>, which holds {} numbers", i + 1,
+                          closure.operation, v.name, v.iri, v.size),
+              fmt::format("the port takes {}", kernel->ports[i].size));
+        sound = false;
+      }
+    }
+    return sound;
+  }
+
+  void check_schedule(const std::vector<bool>& sound) {
+    std::vector<bool> scheduled(program_.closures.size(), false);
+    for (const std::uint32_t index : program_.schedule) {
+      if (index >= program_.closures.size()) {
+        fault(program_.iri, fmt::format("the schedule names closure {}", index),
+              fmt::format("there are {} closures", program_.closures.size()));
+        continue;
+      }
+      const Closure& closure = program_.closures[index];
+      if (scheduled[index]) {
+        fault(closure.iri, "the closure is scheduled twice", "schedule it once");
+        continue;
+      }
+      scheduled[index] = true;
+      if (sound[index]) follow(index, closure);
+    }
+  }
+
+  void follow(std::uint32_t index, const Closure& closure) {
+    const Kernel& kernel = *find_kernel(closure.operation);
+    for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
+      if (!kernel.ports[i].output) check_read(closure, closure.arguments[i]);
+    }
+    for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
+      if (kernel.ports[i].output) check_write(index, closure, closure.arguments[i]);
+    }
+  }
+
+  void check_read(const Closure& closure, std::uint32_t variable) {
+    const Variable& v = program_.variables[variable];
+    if (v.role != Role::kInternal || writer_[variable] != kNobody) return;
+    fault(closure.iri,
+          fmt::format("'{}' reads '{}' <{}> before anything has written it", closure.operation,
+                      v.name, v.iri),
+          "schedule the closure that writes it earlier, or make it an input");
+  }
+
+  void check_write(std::uint32_t index, const Closure& closure, std::uint32_t variable) {
+    const Variable& v = program_.variables[variable];
+    if (v.role == Role::kInput || v.role == Role::kConstant) {
+      fault(closure.iri,
+            fmt::format("'{}' writes '{}' <{}>, which is {}", closure.operation, v.name, v.iri,
+                        v.role == Role::kInput ? "an input" : "a constant"),
+            "write to an internal variable");
+      return;
+    }
+    for (std::size_t i = 0; i + 1 < closure.arguments.size(); ++i) {
+      const bool input = !find_kernel(closure.operation)->ports[i].output;
+      if (input && closure.arguments[i] == variable) {
+        fault(closure.iri,
+              fmt::format("'{}' both reads and writes '{}' <{}>", closure.operation, v.name, v.iri),
+              "write to another variable");
+      }
+    }
+    if (writer_[variable] != kNobody) {
+      fault(closure.iri,
+            fmt::format("'{}' writes '{}' <{}>, which <{}> has written", closure.operation, v.name,
+                        v.iri, program_.closures[writer_[variable]].iri),
+            "a variable has one writer");
+      return;
+    }
+    writer_[variable] = index;
+  }
+
+  void check_outputs() {
+    for (std::size_t i = 0; i < program_.variables.size(); ++i) {
+      const Variable& v = program_.variables[i];
+      if (v.output && v.role == Role::kInternal && writer_[i] == kNobody) {
+        fault(v.iri, fmt::format("nothing writes the output '{}'", v.name),
+              "schedule a closure that writes it");
+      }
+    }
+  }
+
+  const Program& program_;
+  Report& report_;
+  std::vector<std::uint32_t> writer_;  // closure that has written each variable so far
+};
+
+}  // namespace
+
+void validate(const Program& program, Report& report) { Validator(program, report).run(); }
+
+void require_valid(const Program& program) {
+  Report report;
+  validate(program, report);
+  report.throw_if_errors();
+}
+
+}  // namespace sinew::program
