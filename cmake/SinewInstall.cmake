@@ -5,7 +5,9 @@ include(CMakePackageConfigHelpers)
 
 get_property(targets GLOBAL PROPERTY SINEW_TARGETS)
 install(TARGETS ${targets} EXPORT sinewTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS sinew DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET sinew)  # the executable
+  install(TARGETS sinew DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 install(EXPORT sinewTargets NAMESPACE sinew:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sinew)
 install(DIRECTORY sinew DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h"
         PATTERN "test" EXCLUDE PATTERN "fuzz" EXCLUDE)
