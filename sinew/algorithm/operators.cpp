@@ -12,9 +12,9 @@ namespace {
 #define SINEW_OWN "https://w3id.org/sinew/operators#"
 
 // ports: "NAME:QUANTITY ... -> NAME:QUANTITY ..."; `NAME*` takes a list.
-// rules: "PORT.SYMBOL = PORT.SYMBOL; ..." with the symbols of, wrt, seen; "PORT.rotation" for a
-// pose that does not move the origin. A port's property has the namespace of the operator's IRI.
-// Bodies: P predecessor, C successor of a joint, R the root. Frames: A, B, D.
+// rules: "PORT.SYMBOL = PORT.SYMBOL; ..." with the symbols of, wrt, seen, ref; `at` is seen and ref
+// together, so "from.at = pose.wrt" says that `from` is seen from, and about the origin of, the
+// pose's `wrt`. A port's property has the namespace of the operator's IRI.
 struct Row {
   std::string_view name, iri, ports, rules, formula;
 };
@@ -22,32 +22,32 @@ struct Row {
 constexpr Row kRows[] = {
     // Joint space to Cartesian space. The joint's axis is z of its two frames.
     {"position-to-pose-revolute", SINEW_OWN "position-to-pose-revolute",
-     "position:joint-position -> pose:pose",
-     "pose.of = position.of; pose.wrt = position.wrt; pose.rotation", "X = [Rz(q) 0]"},
+     "position:joint-position -> pose:pose", "pose.of = position.of; pose.wrt = position.wrt",
+     "X = [Rz(q) 0]"},
     {"position-to-pose-prismatic", SINEW_OWN "position-to-pose-prismatic",
      "position:joint-position -> pose:pose", "pose.of = position.of; pose.wrt = position.wrt",
      "X = [1 (0 0 q)]"},
     {"velocity-to-twist-revolute", SINEW_OWN "velocity-to-twist-revolute",
      "velocity:joint-velocity -> twist:velocity-twist",
-     "twist.of = velocity.of; twist.wrt = velocity.wrt; twist.seen = velocity.seen",
+     "twist.of = velocity.of; twist.wrt = velocity.wrt; twist.at = velocity.seen",
      "V = (0 0 qd, 0 0 0)"},
     {"velocity-to-twist-prismatic", SINEW_OWN "velocity-to-twist-prismatic",
      "velocity:joint-velocity -> twist:velocity-twist",
-     "twist.of = velocity.of; twist.wrt = velocity.wrt; twist.seen = velocity.seen",
+     "twist.of = velocity.of; twist.wrt = velocity.wrt; twist.at = velocity.seen",
      "V = (0 0 0, 0 0 qd)"},
     {"acceleration-to-twist-revolute", SINEW_OWN "acceleration-to-twist-revolute",
      "acceleration:joint-acceleration -> twist:acceleration-twist",
-     "twist.of = acceleration.of; twist.wrt = acceleration.wrt; twist.seen = acceleration.seen",
+     "twist.of = acceleration.of; twist.wrt = acceleration.wrt; twist.at = acceleration.seen",
      "A = (0 0 qdd, 0 0 0)"},
     {"acceleration-to-twist-prismatic", SINEW_OWN "acceleration-to-twist-prismatic",
      "acceleration:joint-acceleration -> twist:acceleration-twist",
-     "twist.of = acceleration.of; twist.wrt = acceleration.wrt; twist.seen = acceleration.seen",
+     "twist.of = acceleration.of; twist.wrt = acceleration.wrt; twist.at = acceleration.seen",
      "A = (0 0 0, 0 0 qdd)"},
     {"force-from-wrench-revolute", SINEW_OWN "force-from-wrench-revolute",
-     "wrench:wrench -> force:joint-force", "wrench.of = force.of; wrench.seen = force.seen",
+     "wrench:wrench -> force:joint-force", "wrench.of = force.of; wrench.at = force.seen",
      "tau = nz"},
     {"force-from-wrench-prismatic", SINEW_OWN "force-from-wrench-prismatic",
-     "wrench:wrench -> force:joint-force", "wrench.of = force.of; wrench.seen = force.seen",
+     "wrench:wrench -> force:joint-force", "wrench.of = force.of; wrench.at = force.seen",
      "tau = fz"},
 
     // Poses. X_AB is the pose of B with respect to A: p_A = R p_B + p.
@@ -59,30 +59,35 @@ constexpr Row kRows[] = {
     // Velocity twists.
     {"transform-velocity-twist-to-distal", SINEW_GEOMETRY "TransformVelocityTwistToDistal",
      "pose:pose from:velocity-twist -> to:velocity-twist",
-     "from.seen = pose.wrt; to.seen = pose.of; to.of = from.of; to.wrt = from.wrt",
+     "from.at = pose.wrt; to.at = pose.of; to.of = from.of; to.wrt = from.wrt",
      "w_B = R' w_A, v_B = R' (v_A + w_A x p)"},
-    {"rotate-velocity-twist", SINEW_OWN "rotate-velocity-twist",
-     "pose:pose from:velocity-twist -> to:velocity-twist",
-     "pose.rotation; from.seen = pose.wrt; to.seen = pose.of; to.of = from.of; to.wrt = from.wrt",
-     "w_B = R' w_A, v_B = R' v_A"},
     {"add-velocity-twist", SINEW_GEOMETRY "AddVelocityTwist",
      "in1:velocity-twist in2:velocity-twist -> composite:velocity-twist",
-     "in1.of = in2.wrt; composite.wrt = in1.wrt; composite.of = in2.of; in1.seen = in2.seen; "
-     "composite.seen = in1.seen",
+     "in1.of = in2.wrt; composite.wrt = in1.wrt; composite.of = in2.of; in1.at = in2.at; "
+     "composite.at = in1.at",
      "V_RC = V_RP + V_PC"},
+    // Rotations change the directions and leave the reference point.
+    {"rotate-velocity-twist-to-proximal", SINEW_GEOMETRY "RotateVelocityTwistToProximalWithPose",
+     "pose:pose from:velocity-twist -> to:velocity-twist",
+     "from.seen = pose.of; to.seen = pose.wrt; to.ref = from.ref; to.of = from.of; "
+     "to.wrt = from.wrt",
+     "w_A = R w_B, v_A = R v_B"},
+    {"rotate-velocity-twist-to-distal", SINEW_OWN "rotate-velocity-twist-to-distal",
+     "pose:pose from:velocity-twist -> to:velocity-twist",
+     "from.seen = pose.wrt; to.seen = pose.of; to.ref = from.ref; to.of = from.of; "
+     "to.wrt = from.wrt",
+     "w_B = R' w_A, v_B = R' v_A"},
 
-    // Classical acceleration twists: the derivative of angular velocity, and the acceleration of
-    // the frame's
-    // origin. `from` and `to` are the acceleration of P; `to` at the origin of B as it moves with
-    // C, so that
-    // adding the relative acceleration of C gives the acceleration of C.
-    //   al_B = R' al_A + (R' w_A) x w_rel
-    //   a_B  = R' (a_A + al_A x p + w_A x (w_A x p)) + 2 (R' w_A) x v_rel
+    // Classical acceleration twists: the derivative of angular velocity, and the acceleration of a
+    // point.
+    // `in` and `out` are the acceleration of P; `out` at the origin of B as it moves with C, so
+    // that adding
+    // the relative acceleration of C gives the acceleration of C.
     {"transform-acceleration-twist-to-distal", SINEW_GEOMETRY "TransformAccelerationTwistToDistal",
      "pose:pose absolute-velocity:velocity-twist relative-velocity:velocity-twist "
      "in:acceleration-twist -> out:acceleration-twist",
-     "in.seen = pose.wrt; absolute-velocity.seen = pose.wrt; relative-velocity.seen = pose.of; "
-     "out.seen = pose.of; in.of = absolute-velocity.of; in.wrt = absolute-velocity.wrt; "
+     "in.at = pose.wrt; absolute-velocity.at = pose.wrt; relative-velocity.at = pose.of; "
+     "out.at = pose.of; in.of = absolute-velocity.of; in.wrt = absolute-velocity.wrt; "
      "relative-velocity.wrt = absolute-velocity.of; out.of = in.of; out.wrt = in.wrt",
      "al_B = R' al_A + (R' w_A) x w_rel, "
      "a_B = R' (a_A + al_A x p + w_A x (w_A x p)) + 2 (R' w_A) x v_rel"},
@@ -90,44 +95,49 @@ constexpr Row kRows[] = {
     {"transform-acceleration-twist-to-distal-fixed",
      SINEW_OWN "transform-acceleration-twist-to-distal-fixed",
      "pose:pose absolute-velocity:velocity-twist in:acceleration-twist -> out:acceleration-twist",
-     "in.seen = pose.wrt; absolute-velocity.seen = pose.wrt; out.seen = pose.of; "
+     "in.at = pose.wrt; absolute-velocity.at = pose.wrt; out.at = pose.of; "
      "in.of = absolute-velocity.of; in.wrt = absolute-velocity.wrt; out.of = in.of; out.wrt = "
      "in.wrt",
      "al_B = R' al_A, a_B = R' (a_A + al_A x p + w_A x (w_A x p))"},
-    // Across a joint that does not move the origin (p = 0, v_rel = 0).
-    {"rotate-acceleration-twist", SINEW_OWN "rotate-acceleration-twist",
-     "pose:pose absolute-velocity:velocity-twist relative-velocity:velocity-twist "
-     "in:acceleration-twist -> out:acceleration-twist",
-     "pose.rotation; in.seen = pose.wrt; absolute-velocity.seen = pose.wrt; "
-     "relative-velocity.seen = pose.of; out.seen = pose.of; in.of = absolute-velocity.of; "
-     "in.wrt = absolute-velocity.wrt; relative-velocity.wrt = absolute-velocity.of; "
-     "out.of = in.of; out.wrt = in.wrt",
-     "al_B = R' al_A + (R' w_A) x w_rel, a_B = R' a_A"},
     {"add-acceleration-twist", SINEW_GEOMETRY "AddAccelerationTwist",
      "in1:acceleration-twist in2:acceleration-twist -> composite:acceleration-twist",
-     "in1.of = in2.wrt; composite.wrt = in1.wrt; composite.of = in2.of; in1.seen = in2.seen; "
-     "composite.seen = in1.seen",
+     "in1.of = in2.wrt; composite.wrt = in1.wrt; composite.of = in2.of; in1.at = in2.at; "
+     "composite.at = in1.at",
      "A_RC = A_RP + A_PC"},
+    {"rotate-acceleration-twist-to-proximal", SINEW_OWN "rotate-acceleration-twist-to-proximal",
+     "pose:pose from:acceleration-twist -> to:acceleration-twist",
+     "from.seen = pose.of; to.seen = pose.wrt; to.ref = from.ref; to.of = from.of; "
+     "to.wrt = from.wrt",
+     "al_A = R al_B, a_A = R a_B"},
+    {"rotate-acceleration-twist-to-distal", SINEW_OWN "rotate-acceleration-twist-to-distal",
+     "pose:pose from:acceleration-twist -> to:acceleration-twist",
+     "from.seen = pose.wrt; to.seen = pose.of; to.ref = from.ref; to.of = from.of; "
+     "to.wrt = from.wrt",
+     "al_B = R' al_A, a_B = R' a_A"},
 
-    // Wrenches: what the body must feel, and what a joint must transmit.
+    // Wrenches: what moves a body as it moves, and what a joint must transmit.
     {"newton-euler-wrench", SINEW_OWN "newton-euler-wrench",
      "rigid-body-inertia:rigid-body-inertia velocity-twist:velocity-twist "
      "acceleration-twist:acceleration-twist -> wrench:wrench",
-     "velocity-twist.seen = rigid-body-inertia.seen; "
-     "acceleration-twist.seen = rigid-body-inertia.seen; wrench.seen = rigid-body-inertia.seen; "
-     "velocity-twist.of = rigid-body-inertia.of; acceleration-twist.of = rigid-body-inertia.of; "
-     "wrench.of = rigid-body-inertia.of; acceleration-twist.wrt = velocity-twist.wrt",
+     "velocity-twist.at = rigid-body-inertia.at; acceleration-twist.at = rigid-body-inertia.at; "
+     "wrench.at = rigid-body-inertia.at; velocity-twist.of = rigid-body-inertia.of; "
+     "acceleration-twist.of = rigid-body-inertia.of; wrench.of = rigid-body-inertia.of; "
+     "acceleration-twist.wrt = velocity-twist.wrt",
      "n = I al + w x (I w) + h x a, f = m a + al x h + w x (w x h)"},
     {"transform-wrench-to-proximal", SINEW_DYNAMICS "TransformWrenchToProximal",
-     "pose:pose from:wrench -> to:wrench",
-     "from.seen = pose.of; to.seen = pose.wrt; to.of = from.of",
+     "pose:pose from:wrench -> to:wrench", "from.at = pose.of; to.at = pose.wrt; to.of = from.of",
      "f_A = R f_B, n_A = R n_B + p x f_A"},
-    {"rotate-wrench", SINEW_OWN "rotate-wrench", "pose:pose from:wrench -> to:wrench",
-     "pose.rotation; from.seen = pose.of; to.seen = pose.wrt; to.of = from.of",
+    {"rotate-wrench-to-proximal", SINEW_DYNAMICS "RotateWrenchToProximalWithPose",
+     "pose:pose from:wrench -> to:wrench",
+     "from.seen = pose.of; to.seen = pose.wrt; to.ref = from.ref; to.of = from.of",
      "f_A = R f_B, n_A = R n_B"},
+    {"rotate-wrench-to-distal", SINEW_DYNAMICS "RotateWrenchToDistalWithPose",
+     "pose:pose from:wrench -> to:wrench",
+     "from.seen = pose.wrt; to.seen = pose.of; to.ref = from.ref; to.of = from.of",
+     "f_B = R' f_A, n_B = R' n_A"},
     // A body's own wrench and that which a successor hands on to it.
     {"accumulate-wrench", SINEW_DYNAMICS "AddWrench", "in1:wrench in2:wrench -> out:wrench",
-     "in1.seen = in2.seen; out.seen = in1.seen; out.of = in1.of", "W = W_1 + W_2"},
+     "in1.at = in2.at; out.at = in1.at; out.of = in1.of", "W = W_1 + W_2"},
 };
 
 [[noreturn]] void fault(const Row& row, std::string_view what) {
@@ -168,24 +178,28 @@ std::uint8_t port_index(const Row& row, const Operator& op, std::string_view nam
   fault(row, "a rule names a port that does not exist");
 }
 
-Symbol parse_symbol(const Row& row, const Operator& op, std::string_view text) {
-  const std::uint8_t port = port_index(row, op, take(text, "."));
-  if (text == "of") return {port, Attribute::kOf};
-  if (text == "wrt") return {port, Attribute::kWrt};
-  if (text == "seen") return {port, Attribute::kSeenBy};
+Attribute parse_attribute(const Row& row, std::string_view text) {
+  if (text == "of") return Attribute::kOf;
+  if (text == "wrt") return Attribute::kWrt;
+  if (text == "ref") return Attribute::kReference;
+  if (text == "seen") return Attribute::kSeenBy;
   fault(row, "a rule names a symbol that does not exist");
 }
 
 void parse_rules(const Row& row, Operator& op) {
   for (std::string_view rest = row.rules; !rest.empty();) {
     std::string_view right = take(rest, "; ");
-    const std::string_view left = take(right, " = ");
-    if (left.ends_with(".rotation")) {
-      std::string_view port = left;
-      op.rules.push_back({{port_index(row, op, take(port, ".")), {}}, {}, true});
-    } else {
-      op.rules.push_back({parse_symbol(row, op, left), parse_symbol(row, op, right)});
+    std::string_view left = take(right, " = ");
+    const std::uint8_t left_port = port_index(row, op, take(left, "."));
+    const std::uint8_t right_port = port_index(row, op, take(right, "."));
+    if (left != "at") {
+      op.rules.push_back(
+          {{left_port, parse_attribute(row, left)}, {right_port, parse_attribute(row, right)}});
+      continue;
     }
+    for (const Attribute attribute : {Attribute::kSeenBy, Attribute::kReference})
+      op.rules.push_back({{left_port, attribute},
+                          {right_port, right == "at" ? attribute : parse_attribute(row, right)}});
   }
 }
 
@@ -230,7 +244,6 @@ const Operator* find_operator(std::string_view name) { return find(catalogue().b
 const Operator* find_operator_by_iri(std::string_view iri) { return find(catalogue().by_iri, iri); }
 
 std::string to_string(const FrameRule& rule, const Operator& op) {
-  if (rule.rotation_only) return op.ports[rule.left.port].name + " does not move the origin";
   return to_string(rule.left, op) + " = " + to_string(rule.right, op);
 }
 

@@ -31,11 +31,8 @@ struct Symbol {
   Attribute attribute = Attribute::kOf;
 };
 
-// left = right, or (when `rotation_only`) "the pose at left.port never moves the origin": demanded
-// of an input, guaranteed of an output.
 struct FrameRule {
-  Symbol left, right;
-  bool rotation_only = false;
+  Symbol left, right;  // must be the same node
 };
 
 struct Operator {

@@ -6,24 +6,31 @@
 namespace sinew::algorithm {
 namespace {
 
-constexpr std::uint8_t kNone = 0, kOf = 1, kOfWrt = 3, kOfSeen = 5, kAll = 7;
+constexpr std::uint8_t bit(Attribute attribute) {
+  return static_cast<std::uint8_t>(1u << static_cast<unsigned>(attribute));
+}
+constexpr std::uint8_t kOf = bit(Attribute::kOf), kWrt = bit(Attribute::kWrt),
+                       kSeen = bit(Attribute::kSeenBy), kReference = bit(Attribute::kReference);
+constexpr std::uint8_t kPose = kOf | kWrt, kJoint = kOf | kWrt | kSeen,
+                       kTwist = kOf | kWrt | kReference | kSeen, kAt = kOf | kReference | kSeen;
 
 constexpr std::array kQuantities = {
-    Quantity{"pose", 12, "UNITLESS M", "", kOfWrt},
-    Quantity{"velocity-twist", 6, "RAD-PER-SEC M-PER-SEC", "", kAll},
-    Quantity{"acceleration-twist", 6, "RAD-PER-SEC2 M-PER-SEC2", "", kAll},
-    Quantity{"wrench", 6, "N-M N", "", kOfSeen},
-    Quantity{"rigid-body-inertia", 10, "KiloGM KiloGM-M KiloGM-M2", "", kOfSeen},
-    Quantity{"joint-position", 1, "RAD", "M", kAll},
-    Quantity{"joint-velocity", 1, "RAD-PER-SEC", "M-PER-SEC", kAll},
-    Quantity{"joint-acceleration", 1, "RAD-PER-SEC2", "M-PER-SEC2", kAll},
-    Quantity{"joint-force", 1, "N-M", "N", kAll},
+    Quantity{"pose", 12, "UNITLESS M", "", kPose},
+    Quantity{"velocity-twist", 6, "RAD-PER-SEC M-PER-SEC", "", kTwist},
+    Quantity{"acceleration-twist", 6, "RAD-PER-SEC2 M-PER-SEC2", "", kTwist},
+    Quantity{"wrench", 6, "N-M N", "", kAt},
+    Quantity{"rigid-body-inertia", 10, "KiloGM KiloGM-M KiloGM-M2", "", kAt},
+    Quantity{"joint-position", 1, "RAD", "M", kJoint},
+    Quantity{"joint-velocity", 1, "RAD-PER-SEC", "M-PER-SEC", kJoint},
+    Quantity{"joint-acceleration", 1, "RAD-PER-SEC2", "M-PER-SEC2", kJoint},
+    Quantity{"joint-force", 1, "N-M", "N", kJoint},
 };
 
 }  // namespace
 
 std::string_view to_string(Attribute attribute) {
-  constexpr std::array<std::string_view, kAttributes> names = {"of", "with-respect-to", "seen-by"};
+  constexpr std::array<std::string_view, kAttributes> names = {"of", "with-respect-to",
+                                                               "reference-point", "seen-by"};
   return names[static_cast<std::size_t>(attribute)];
 }
 

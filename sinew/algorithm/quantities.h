@@ -9,11 +9,14 @@
 namespace sinew::algorithm {
 
 // The symbols that give a quantity its meaning. For a pose they are frames: X_AB is the pose *of* B
-// *with respect to* A, seen by A. For motion and force, `of` and `wrt` are bodies, and `seen_by` is
-// the frame that gives the directions and, by its origin, the reference point.
-enum class Attribute : std::uint8_t { kOf, kWrt, kSeenBy };
-inline constexpr std::size_t kAttributes = 3;
-std::string_view to_string(Attribute attribute);  // "of", "with-respect-to", "seen-by"
+// *with respect to* A. For motion and force, `of` and `wrt` are bodies, `seen_by` is the frame that
+// gives the directions, and `reference` the frame whose origin is the point that the linear part
+// (or the moment) is about. For a joint's quantities, `of` and `wrt` are the same as in the twist
+// or pose that they make.
+enum class Attribute : std::uint8_t { kOf, kWrt, kReference, kSeenBy };
+inline constexpr std::size_t kAttributes = 4;
+std::string_view to_string(
+    Attribute attribute);  // "of", "with-respect-to", "reference-point", "seen-by"
 
 struct Quantity {
   std::string_view name;

@@ -43,7 +43,8 @@ TEST(Operators, TieEverySymbolOfTheirOutputToAnInput) {
   for (const Operator& op : operators()) {
     const auto out = static_cast<std::uint8_t>(op.ports.size() - 1);
     const Quantity& quantity = *find_quantity(op.ports[out].quantity);
-    for (const Attribute attribute : {Attribute::kOf, Attribute::kWrt, Attribute::kSeenBy}) {
+    for (const Attribute attribute :
+         {Attribute::kOf, Attribute::kWrt, Attribute::kReference, Attribute::kSeenBy}) {
       if (!needs(quantity, attribute)) continue;
       bool tied =
           quantity.name == "joint-force";  // an output of the joint's own, named by the builder
