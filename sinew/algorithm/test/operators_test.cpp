@@ -50,7 +50,7 @@ TEST(Operators, TieEverySymbolOfTheirOutputToAnInput) {
           quantity.name == "joint-force";  // an output of the joint's own, named by the builder
       for (const FrameRule& rule : op.rules)
         tied |=
-            !rule.rotation_only && ((rule.left.port == out && rule.left.attribute == attribute) ||
+            ((rule.left.port == out && rule.left.attribute == attribute) ||
                                     (rule.right.port == out && rule.right.attribute == attribute));
       EXPECT_TRUE(tied) << op.name << ": " << to_string(attribute) << " of its output";
     }
