@@ -1,0 +1,90 @@
+#include "sinew/data/units.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sinew/base/error.h"
+
+namespace sinew::data {
+namespace {
+
+double converted(double value, const char* from, const char* to) {
+  const auto a = find_unit(from), b = find_unit(to);
+  if (!a || !b) return std::nan("");
+  const auto way = conversion(*a, *b);
+  return way ? way->scale * value + way->offset : std::nan("");
+}
+
+TEST(Units, AreFoundByQudtNameSymbolAndProduct) {
+  for (const char* name :
+       {"M",   "MilliM", "mm",         "KiloGM", "kg",        "SEC",        "DEG",     "rad/s",
+        "N-M", "N*m",    "M-PER-SEC2", "m/s^2",  "KiloGM-M2", "kg*m^2/s^2", "PER-SEC", "unitless",
+        "1/s", "N·m",    "DEG_C",      "rpm",    "M2",        "KiloN-M",    "s^-1"}) {
+    EXPECT_TRUE(find_unit(name)) << name;
+  }
+}
+
+TEST(Units, OfTheSameThingHaveTheSameSize) {
+  const std::pair<const char*, const char*> equal[] = {
+      {"M-PER-SEC2", "m/s^2"},  {"N-M", "J"},      {"KiloGM-M2-PER-SEC2", "N*m"},
+      {"KiloM-PER-HR", "km/h"}, {"PER-SEC", "Hz"}, {"REV-PER-MIN", "rpm"}};
+  for (const auto& [a, b] : equal) {
+    EXPECT_EQ(find_unit(a)->dimension, find_unit(b)->dimension) << a << " " << b;
+    EXPECT_DOUBLE_EQ(find_unit(a)->scale, find_unit(b)->scale) << a << " " << b;
+  }
+}
+
+TEST(Units, ConvertByScaleAndOffset) {
+  EXPECT_EQ(converted(1.5, "m", "mm"), 1500);
+  EXPECT_EQ(converted(1500, "MilliM", "M"), 1.5);
+  EXPECT_DOUBLE_EQ(converted(180, "deg", "rad"), M_PI);
+  EXPECT_DOUBLE_EQ(converted(20, "DEG_C", "K"), 293.15);
+  EXPECT_NEAR(converted(300, "K", "degC"), 26.85, 1e-12);
+  EXPECT_NEAR(converted(212, "degF", "degC"), 100, 1e-12);
+  EXPECT_DOUBLE_EQ(converted(36, "km/h", "m/s"), 10);
+  EXPECT_DOUBLE_EQ(converted(1, "rev/min", "rad/s"), 2 * M_PI / 60);
+  EXPECT_DOUBLE_EQ(converted(2, "KiloN-M", "N-M"), 2000);
+}
+
+TEST(Units, OfDifferentDimensionsDoNotConvert) {
+  EXPECT_FALSE(conversion(*find_unit("m"), *find_unit("rad")));
+  EXPECT_FALSE(conversion(*find_unit("Hz"), *find_unit("rad/s")));  // 2 pi lies between them
+  EXPECT_FALSE(conversion(*find_unit("unitless"), *find_unit("deg")));
+}
+
+TEST(Units, WithAnOffsetStandAlone) {
+  EXPECT_FALSE(find_unit("degC/s"));
+  EXPECT_FALSE(find_unit("DEG_C-PER-SEC"));
+  EXPECT_TRUE(find_unit("K/s"));
+}
+
+TEST(Units, ThatDoNotExistAreRefusedWithASuggestion) {
+  UnitProblem problem;
+  EXPECT_FALSE(UnitTable::shipped().find("metr", &problem));
+  EXPECT_FALSE(UnitTable::shipped().find("UNITLES", &problem));
+  EXPECT_EQ(problem.remedy, "did you mean UNITLESS or unitless?");
+  for (const char* text : {"", "m^99", "m//s", "/s", "m^", "PER-PER-SEC", "-", "M-PER-", "m^-"}) {
+    EXPECT_FALSE(find_unit(text)) << text;
+  }
+}
+
+TEST(Units, ComeFromATableThatIsChecked) {
+  EXPECT_THROW(UnitTable::read("{", "x.json"), Error);
+  EXPECT_THROW(UnitTable::read(R"({"prefixes": [], "units": [{"name": "M"}]})", "x.json"), Error);
+  EXPECT_THROW(UnitTable::read(R"({"prefixes": [], "units": [{"name": "M", "symbols": [],
+      "dimension": "lenth", "scale": 1}]})",
+                               "x.json"),
+               Error);
+}
+
+TEST(Dimensions, FormAnAlgebra) {
+  const Dimension newton = find_unit("N")->dimension, metre = find_unit("m")->dimension;
+  EXPECT_EQ(to_string(newton * metre), "length^2 mass time^-2");
+  EXPECT_EQ(to_string(newton / newton), "dimensionless");
+  EXPECT_EQ(power(metre, 3), find_unit("L")->dimension);
+  EXPECT_EQ(parse_dimension(to_string(newton)), newton);
+}
+
+}  // namespace
+}  // namespace sinew::data
