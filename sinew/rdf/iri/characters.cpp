@@ -10,9 +10,6 @@ bool is_continuation(unsigned char byte) { return (byte & 0xC0) == 0x80; }
 
 bool is_ascii_letter(char32_t c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_ascii_digit(char32_t c) { return c >= '0' && c <= '9'; }
-bool is_hex_digit(char32_t c) {
-  return is_ascii_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
-}
 
 // Bytes of the well-formed sequence at the start of `text` (Unicode, table 3-7), 0 if there is
 // none.
@@ -130,7 +127,8 @@ bool is_plain_local_name(std::string_view name) {
     const Decoded next = decode_utf8(name, i);
     const char32_t c = next.character;
     if (c == '%') {
-      if (i + 2 >= name.size() || !is_hex_digit(name[i + 1]) || !is_hex_digit(name[i + 2])) {
+      if (i + 2 >= name.size() || hex_digit_value(name[i + 1]) < 0 ||
+          hex_digit_value(name[i + 2]) < 0) {
         return false;
       }
     } else if (i == 0) {

@@ -27,6 +27,14 @@ constexpr bool is_scalar_value(char32_t character) {
   return character <= 0x10FFFF && !(character >= 0xD800 && character <= 0xDFFF);
 }
 
+// 0 to 15, or -1 when it is not a hexadecimal digit.
+constexpr int hex_digit_value(char32_t c) {
+  if (c >= '0' && c <= '9') return static_cast<int>(c - '0');
+  if (c >= 'a' && c <= 'f') return static_cast<int>(c - 'a') + 10;
+  if (c >= 'A' && c <= 'F') return static_cast<int>(c - 'A') + 10;
+  return -1;
+}
+
 // PN_CHARS_BASE: a letter in the widest sense.
 bool is_name_base(char32_t character);
 // PN_CHARS_U: the same and '_'.

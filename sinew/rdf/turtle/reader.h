@@ -17,6 +17,7 @@
 
 #include "sinew/graph/store.h"
 #include "sinew/rdf/iri/prefixes.h"
+#include "sinew/rdf/turtle/limits.h"
 
 namespace sinew::rdf {
 
@@ -24,10 +25,6 @@ enum class Syntax { kTurtle, kTriG, kNTriples, kNQuads };
 
 // By the end of the name: .ttl .trig .nt .nq; nothing for any other.
 std::optional<Syntax> syntax_of_file(std::string_view name);
-
-// Beyond these the text is refused with an Error.
-inline constexpr std::size_t kMaxNesting = 256;            // of [ ] and ( )
-inline constexpr std::size_t kMaxTermBytes = 64ull << 20;  // one IRI or literal
 
 struct ReadOptions {
   std::string file;      // for messages; may be empty
