@@ -1,5 +1,5 @@
-// Where in which file a node, or one property of a node, was written; so that any later stage can say
-// file:line for what it finds wrong.
+// Where in which file a node, or one property of a node, was written; so that any later stage can
+// say file:line for what it finds wrong.
 #pragma once
 
 #include <cstdint>

@@ -1,104 +1,118 @@
 // The quad store: subject, predicate, object, graph. Graph 0 is the unnamed (default) graph.
 //
-// Reading goes through a View, which is a version of the store and a choice of dataset. A view of the
-// present is `store.view()`; a `Snapshot` is a view that keeps its version alive: it costs O(1), and goes
-// on seeing exactly what was committed when it was taken, whatever is written later and from whichever thread.
+// Reading goes through a View (view.h), which is a version of the store. A view of the present is
+// `store.view()`; a `Snapshot` is a view that keeps its version alive: it costs O(1), and goes on
+// seeing exactly what was committed when it was taken, whatever is written later and from whichever
+// thread.
 //
-// Writing goes through a Transaction: everything is visible to its own view at once, to others on commit,
-// all or nothing; one that is destroyed without commit leaves no trace. One transaction at a time; a
-// second one waits. `undo_to(mark)` takes back what a transaction did since the mark, for search.
+// Writing goes through a Transaction: everything is visible to its own view at once, to others on
+// commit, all or nothing; one that is destroyed without commit leaves no trace. One transaction at
+// a time; a second one waits, unless the waiting thread has the first one itself: that is an Error,
+// for it would wait for ever. `undo_to(mark)` takes back what a transaction did since the mark, for
+// search.
 //
-// Limits: 2^32 - 2 quads over the lifetime between compactions; Error beyond.
+// Synchronisation: readers of snapshots take no lock and do not wait for the writer, nor it for
+// them (records.h says why that is safe); taking and giving back a snapshot and committing take a
+// mutex for some ten nanoseconds. A removed triple is unlinked from its lists once no snapshot
+// needs it, at a constant cost per removal in the long run. Its memory comes back when a
+// transaction begins while more records are dead than alive: the store is then copied without them
+// (some 50 ns a triple), and snapshots that are still alive keep the old copy for as long as they
+// live.
+//
+// Limits: 2^32 - 2 triples and graph memberships, removed ones included until the next copy; Error
+// beyond.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <string_view>
 
 #include "sinew/graph/terms.h"
+#include "sinew/graph/view.h"
 
 namespace sinew::graph {
 
-struct Quad {
-  Id subject, predicate, object;
-  Id graph = {};
-  friend constexpr auto operator<=>(const Quad&, const Quad&) = default;
+struct Core;
+struct StoreData;
+
+inline constexpr std::uint32_t kMaxQuads = UINT32_MAX - 1;
+// Fewer dead records than this are never worth a copy.
+inline constexpr std::uint32_t kWorthCompacting = 4096;
+
+struct StoreLimits {
+  std::uint32_t terms = kMaxTerms;
+  std::uint32_t quads = kMaxQuads;
 };
 
-// Which graphs a pattern is matched against.
-enum class Dataset : std::uint8_t {
-  kUnion,    // every triple once, whichever graphs hold it (what models are queried with)
-  kDefault,  // the unnamed graph alone (SPARQL's default)
-};
-
-class Store;
-class Snapshot;
-class Transaction;
-
-// A version of the store as a pattern matcher. Cheap to copy; valid as long as what it came from.
-class View {
+// May outlive its store.
+class Snapshot : public View {
  public:
-  const Terms& terms() const;
-
-  // Calls visit(const Quad&) for every triple that matches, wildcard where the Id is 0, in the order in
-  // which the triples were added; stops when visit returns false. Returns false if it was stopped.
-  // Quad::graph is 0 here; each triple comes once. No allocation. `visit` may add to the store: what is
-  // added meanwhile may or may not be seen.
-  template <typename Visit>
-  bool match(Id subject, Id predicate, Id object, Dataset dataset, Visit&& visit) const;
-  // The same in one named graph (or, with graph 0, in the unnamed graph); Quad::graph is that graph.
-  template <typename Visit>
-  bool match_in(Id subject, Id predicate, Id object, Id graph, Visit&& visit) const;
-  // The same over all *named* graphs: a triple comes once for every graph that holds it.
-  template <typename Visit>
-  bool match_named(Id subject, Id predicate, Id object, Visit&& visit) const;
-
-  bool contains(Id subject, Id predicate, Id object, Dataset dataset = Dataset::kUnion) const;
-  bool contains_in(const Quad& quad) const;
-  // Convenience for functional properties: the first object/subject or 0.
-  Id object(Id subject, Id predicate) const;
-  Id subject(Id predicate, Id object) const;
-
-  // An upper bound of the number of matches from live counters, in O(1); for planners.
-  std::size_t estimate(Id subject, Id predicate, Id object) const;
-  std::size_t size() const;  // distinct triples of the union
-  // Calls visit(Id) for every named graph that is not empty or was created by create_graph.
-  template <typename Visit>
-  bool named_graphs(Visit&& visit) const;
+  Snapshot(const Snapshot& other);
+  Snapshot(Snapshot&& other) noexcept;
+  Snapshot& operator=(Snapshot other) noexcept;
+  ~Snapshot();
 
  private:
-  // (implementation's own)
-};
+  friend class Store;
+  Snapshot(std::shared_ptr<Core> core, Version version, std::size_t size);
 
-class Snapshot : public View { /* movable, copyable; keeps its version alive */ };
+  std::shared_ptr<Core> core_;
+  Version version_;
+};
 
 class Transaction {
  public:
-  bool add(const Quad& quad);     // false when it was there already
+  Transaction(Transaction&& other) noexcept;
+  Transaction& operator=(Transaction&&) = delete;
+  // Takes back everything that was not committed.
+  ~Transaction();
+
+  // False when it was there already. Throws Error when the store is full, or when one of the ids is
+  // no term of this store; the transaction is then as it was before.
+  bool add(const Quad& quad);
   bool remove(const Quad& quad);  // false when it was not there
-  void clear(Id graph);
-  void create_graph(Id graph);
+  void clear(Id graph);           // every triple of this graph
+  void create_graph(Id graph);    // exists from now on, even while it is empty
   void drop_graph(Id graph);
-  View view() const;  // sees this transaction's own changes
+
+  View view() const;  // sees this transaction's own changes; valid until the transaction ends
   using Mark = std::size_t;
   Mark mark() const;
   void undo_to(Mark mark);
+  // After it the transaction is over: no more changes.
   void commit();
-  // The destructor takes back everything that was not committed.
+
+ private:
+  friend class Store;
+  explicit Transaction(StoreData& data);
+  StoreData& data() const;
+
+  StoreData* data_;
+  Version version_;
 };
 
 class Store {
  public:
-  Store();
+  explicit Store(StoreLimits limits = {});
+  ~Store();
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) noexcept;
+
   Terms& terms();
   const Terms& terms() const;
-  View view() const;          // the present; not to be used while another thread writes (take a snapshot)
+  // What is committed, at each call anew. Not to be used while another thread writes: take a
+  // snapshot.
+  View view() const;
   Snapshot snapshot() const;  // O(1), any thread
   Transaction begin();
-  bool add(const Quad& quad);     // a transaction of one
+  bool add(const Quad& quad);  // a transaction of one
   bool remove(const Quad& quad);
-  Store clone() const;            // a full copy with its own life (terms keep their ids)
+  // What is committed, without history, as a store with its own life; terms keep their ids.
+  Store clone() const;
+
+ private:
+  explicit Store(std::unique_ptr<StoreData> data);
+  std::unique_ptr<StoreData> data_;
 };
 
 }  // namespace sinew::graph

@@ -1,0 +1,192 @@
+// The records that the store is made of, and the tables that hold them.
+//
+// A triple is one cache line. It carries the versions [added, removed) in which it is visible, and
+// a link to the next triple in each of six lists, which are in the order of insertion:
+//   SP  the objects of a subject and predicate     S  everything of a subject
+//   PO  the subjects of a predicate and object     P  everything of a predicate
+//   OS  the predicates between object and subject  O  everything of an object
+// The head of each list is a Posting, found by hash for a pair of terms and by array for one term.
+// That a triple is held by a graph is a Membership, with versions of its own; a triple is visible
+// while at least one of its memberships is.
+//
+// Concurrency: one writer, any number of readers, no locks. Records never move and are reached
+// through release/acquire links. Versions grow along every list, so a reader of version v stops at
+// the first record that was added later. A record is used again only after it was undone, for an
+// even later version, so such a reader never takes its new content for the old. A record that is
+// unlinked because it was removed keeps its own links, so a reader that stands on it finds its way
+// on.
+#pragma once
+
+#include <cstdint>
+
+#include "sinew/graph/slot_table.h"
+#include "sinew/graph/stable_array.h"
+
+namespace sinew::graph {
+
+using Version = std::uint64_t;
+inline constexpr Version kNever = UINT64_MAX;
+
+enum List : std::uint32_t { kListSP, kListPO, kListOS, kListS, kListP, kListO, kLists };
+
+// Triple::graph when more than one graph holds, or held, the triple.
+inline constexpr std::uint32_t kSeveralGraphs = UINT32_MAX;
+
+struct alignas(64) Triple {
+  Version added, removed;
+  std::uint32_t subject, predicate, object;
+  std::uint32_t graph;         // the only graph that holds it, or kSeveralGraphs
+  std::uint32_t next[kLists];  // 0 ends a list
+  std::uint32_t first_membership;
+  std::uint32_t last_membership;  // writer only
+};
+static_assert(sizeof(Triple) == 64);
+
+struct Membership {
+  Version added, removed;
+  std::uint32_t triple, graph;
+  std::uint32_t next_of_triple;  // the same triple in another graph
+  std::uint32_t next_in_graph;
+};
+static_assert(sizeof(Membership) == 32);
+
+struct Posting {
+  std::uint32_t first, second;  // the key of a pair
+  std::uint32_t head;
+  std::uint32_t tail;      // writer only
+  std::uint32_t count;     // records in the list, also those that were removed meanwhile
+  std::uint32_t patience;  // writer only: removals until the list is swept
+  // Of a predicate's list: how many SP and PO lists with it are not empty.
+  std::uint32_t distinct_subjects, distinct_objects;
+};
+static_assert(sizeof(Posting) == 32);
+
+// The lists of one term, 0 where it has none.
+struct Node {
+  std::uint32_t as_subject, as_predicate, as_object;  // in `postings`
+  std::uint32_t as_graph;                             // in `graphs`
+};
+
+struct Graph {
+  std::uint32_t name;
+  std::uint32_t members;  // in `postings`, linked by Membership::next_in_graph
+  std::uint32_t marks;    // the newest of its GraphMarks
+  std::uint32_t unused;
+};
+
+// create_graph: the graph exists in [added, removed) even while it is empty.
+struct GraphMark {
+  Version added, removed;
+  std::uint32_t next;  // older
+  std::uint32_t unused;
+};
+
+// Reading of the tables at one version; all inline, because matching is the innermost loop of
+// queries.
+struct Records {
+  StableArray<Triple> triples;  // 1 .. triple_count
+  StableArray<Membership> memberships;
+  StableArray<Posting> postings;
+  StableArray<Node> nodes;  // by term
+  StableArray<Graph> graphs;
+  StableArray<GraphMark> marks;
+  SlotTable pairs[3];  // kListSP, kListPO, kListOS
+  std::uint32_t triple_count = 0;
+  std::uint32_t membership_count = 0;
+  std::uint32_t posting_count = 0;
+  std::uint32_t graph_count = 0;
+  std::uint32_t mark_count = 0;
+  std::uint32_t live_count = 0;  // writer only: triples that its own version sees
+
+  const Posting* pair(List list, std::uint32_t first, std::uint32_t second) const {
+    const std::uint32_t number =
+        pairs[list].find(hash_pair(first, second), [&](std::uint32_t candidate) {
+          const Posting& posting = postings[candidate];
+          return posting.first == first && posting.second == second;
+        });
+    return number ? &postings[number] : nullptr;
+  }
+  const Posting* single(List list, std::uint32_t term) const {
+    const Node* node = nodes.find(term);
+    if (!node) return nullptr;
+    const std::uint32_t number = load(list == kListS   ? node->as_subject
+                                      : list == kListP ? node->as_predicate
+                                                       : node->as_object);
+    return number ? &postings[number] : nullptr;
+  }
+  // Precondition: one or two of the three are not 0. Sets `list`.
+  const Posting* posting(std::uint32_t subject, std::uint32_t predicate, std::uint32_t object,
+                         List& list) const {
+    if (subject && predicate) return pair(list = kListSP, subject, predicate);
+    if (predicate && object) return pair(list = kListPO, predicate, object);
+    if (object && subject) return pair(list = kListOS, object, subject);
+    if (subject) return single(list = kListS, subject);
+    if (predicate) return single(list = kListP, predicate);
+    return single(list = kListO, object);
+  }
+  const Graph* graph(std::uint32_t name) const {
+    const Node* node = nodes.find(name);
+    const std::uint32_t number = node ? load(node->as_graph) : 0;
+    return number ? &graphs[number] : nullptr;
+  }
+
+  // Precondition: added <= version.
+  template <typename Record>
+  static bool still_there(const Record& record, Version version) {
+    return version < load(record.removed);
+  }
+
+  // Whether the graph holds the triple. Precondition: the triple is visible at this version.
+  bool holds(const Triple& triple, std::uint32_t graph, Version version) const {
+    const std::uint32_t only = load(triple.graph);
+    if (only != kSeveralGraphs) return only == graph;
+    for (std::uint32_t at = load(triple.first_membership); at != 0;) {
+      const Membership& membership = memberships[at];
+      if (load(membership.added) > version) return false;
+      if (membership.graph == graph && still_there(membership, version)) return true;
+      at = load(membership.next_of_triple);
+    }
+    return false;
+  }
+
+  // The visible triple, or 0. The list of OS is nearly always the shortest; where it is not short,
+  // the shortest of the three is searched.
+  std::uint32_t find(std::uint32_t subject, std::uint32_t predicate, std::uint32_t object,
+                     Version version) const {
+    const Posting* os = pair(kListOS, object, subject);
+    if (!os) return 0;
+    if (load(os->count) <= kShort) return search(kListOS, *os, subject, predicate, object, version);
+    const Posting* sp = pair(kListSP, subject, predicate);
+    const Posting* po = pair(kListPO, predicate, object);
+    return sp && po ? search(*sp, *po, *os, subject, predicate, object, version) : 0;
+  }
+  std::uint32_t search(const Posting& sp, const Posting& po, const Posting& os,
+                       std::uint32_t subject, std::uint32_t predicate, std::uint32_t object,
+                       Version version) const {
+    const std::uint32_t sp_count = load(sp.count), po_count = load(po.count);
+    const std::uint32_t os_count = load(os.count);
+    if (os_count <= kShort || (os_count <= sp_count && os_count <= po_count)) {
+      return search(kListOS, os, subject, predicate, object, version);
+    }
+    return sp_count <= po_count ? search(kListSP, sp, subject, predicate, object, version)
+                                : search(kListPO, po, subject, predicate, object, version);
+  }
+
+ private:
+  static constexpr std::uint32_t kShort = 8;
+  std::uint32_t search(List list, const Posting& posting, std::uint32_t subject,
+                       std::uint32_t predicate, std::uint32_t object, Version version) const {
+    for (std::uint32_t at = load(posting.head); at != 0;) {
+      const Triple& triple = triples[at];
+      if (load(triple.added) > version) return 0;
+      if (triple.predicate == predicate && triple.subject == subject && triple.object == object &&
+          still_there(triple, version)) {
+        return at;
+      }
+      at = load(triple.next[list]);
+    }
+    return 0;
+  }
+};
+
+}  // namespace sinew::graph

@@ -1,0 +1,84 @@
+// How Terms keeps its terms; private to terms*.cpp.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "sinew/graph/arena.h"
+#include "sinew/graph/numeric.h"
+#include "sinew/graph/slot_table.h"
+#include "sinew/graph/stable_array.h"
+#include "sinew/graph/terms.h"
+
+namespace sinew::graph {
+
+// 32 bytes a term. `text` is null while it waits to be made (fresh blank and derived nodes); the
+// language tag follows the lexical form in memory.
+struct TermEntry {
+  const char* text;
+  double number;
+  std::uint32_t size;
+  std::uint32_t link;  // a literal's datatype, a derived node's place in `derived`
+  std::uint16_t language_size;
+  TermKind kind;
+  bool has_number;
+};
+
+struct DerivedEntry {
+  const std::uint32_t* parts;
+  std::uint32_t role;
+  std::uint32_t count;
+};
+
+struct Terms::Data {
+  std::uint32_t limit = kMaxTerms;
+  std::atomic<std::uint32_t> size = 0;
+  StableArray<TermEntry> entries;  // by id; 0 stays empty
+  SlotTable by_text;               // IRIs, labelled blank nodes, literals
+
+  std::uint32_t derived_size = 0;
+  StableArray<DerivedEntry> derived;
+  SlotTable by_parts;
+  // Derived nodes whose IRI had arrived as text before: the node that has that text.
+  std::unordered_map<std::uint32_t, std::uint32_t> same_as_text;
+
+  Arena arena;  // writer only
+
+  // Making texts on demand, from whichever thread.
+  std::mutex demand;
+  Arena demand_arena;
+  std::unordered_map<std::string_view, std::uint32_t> derived_by_text;
+  std::uint32_t derived_named = 0;               // how many of `derived` are in derived_by_text
+  std::atomic<std::uint32_t> prefixed_iris = 0;  // plain IRIs that start like a derived one
+  std::atomic<std::uint32_t> derived_published = 0;
+  StableArray<std::uint32_t> derived_ids;  // the term of each derived entry
+
+  std::uint32_t add(const TermEntry& entry);
+  const char* copy(std::string_view text, std::string_view more = {});
+  std::uint32_t find_text(std::uint32_t hash, TermKind kind, std::string_view text,
+                          std::uint32_t datatype, std::string_view language) const;
+  // With `demand` held.
+  std::string_view make_text(std::uint32_t id);
+  std::string name_of(const DerivedEntry& entry) const;
+  std::uint32_t find_derived_text(std::string_view text);
+};
+
+// The first terms of every dictionary, in this order.
+enum Builtin : std::uint32_t {
+  kBuiltinNone,
+  kBuiltinString,
+  kBuiltinLangString,
+  kBuiltinBoolean,
+  kBuiltinFirstNumeric,  // the types of NumericType, from kDecimal on
+};
+
+NumericType numeric_type_of(std::uint32_t datatype);
+std::uint32_t hash_text(TermKind kind, std::string_view text, std::uint32_t datatype = 0,
+                        std::string_view language = {});
+
+}  // namespace sinew::graph

@@ -1,0 +1,417 @@
+#include "sinew/graph/writer.h"
+
+#include <fmt/format.h>
+
+#include "sinew/base/error.h"
+
+namespace sinew::graph {
+
+Writer::Writer(std::uint32_t limit) : limit_(limit) {}
+
+// ---- where things are appended ----
+
+std::uint32_t Writer::pair_posting(List list, std::uint32_t first, std::uint32_t second) {
+  const std::uint32_t hash = hash_pair(first, second);
+  const std::uint32_t found = records.pairs[list].find(hash, [&](std::uint32_t candidate) {
+    const Posting& posting = records.postings[candidate];
+    return posting.first == first && posting.second == second;
+  });
+  if (found) return found;
+  const std::uint32_t number = ++records.posting_count;
+  Posting& posting = records.postings.reserve(number);
+  posting.first = first;
+  posting.second = second;
+  posting.patience = kFirstPatience;
+  records.pairs[list].insert(hash, number);
+  return number;
+}
+
+std::uint32_t& Writer::node_posting(List list, std::uint32_t term) {
+  Node& node = records.nodes.reserve(term);
+  return list == kListS ? node.as_subject : list == kListP ? node.as_predicate : node.as_object;
+}
+
+std::uint32_t Writer::single_posting(List list, std::uint32_t term) {
+  std::uint32_t& number = node_posting(list, term);
+  if (number == 0) {
+    records.postings.reserve(++records.posting_count).patience = kFirstPatience;
+    store(number, records.posting_count);
+  }
+  return number;
+}
+
+std::uint32_t Writer::graph_number(std::uint32_t name) {
+  Node& node = records.nodes.reserve(name);
+  if (node.as_graph == 0) {
+    records.postings.reserve(++records.posting_count).patience = kFirstPatience;
+    Graph& graph = records.graphs.reserve(records.graph_count + 1);
+    graph.name = name;
+    graph.members = records.posting_count;
+    store(node.as_graph, records.graph_count + 1);
+    store(records.graph_count, records.graph_count + 1);
+  }
+  return node.as_graph;
+}
+
+// A predicate's distinct subjects or objects: its SP or PO lists that are not empty.
+void Writer::count_pair(List list, std::uint32_t number, int by) {
+  if (list == kListOS) return;
+  const Posting& pair = records.postings[number];
+  const std::uint32_t predicate = list == kListSP ? pair.second : pair.first;
+  Posting& all = records.postings[node_posting(kListP, predicate)];
+  std::uint32_t& counter = list == kListSP ? all.distinct_subjects : all.distinct_objects;
+  store(counter, counter + static_cast<std::uint32_t>(by));
+}
+
+void Writer::check_room() {
+  // So that nothing can fail between a change and its note in the log.
+  if (log_.size() == log_.capacity()) log_.reserve(log_.size() * 2 + 16);
+  if (records.triple_count < limit_ && records.membership_count < limit_) return;
+  Problem problem;
+  problem.what = fmt::format("the store is full: it holds {} triples in {} graph memberships",
+                             records.triple_count, records.membership_count);
+  problem.remedy =
+      "raise its limit, or remove what is no longer needed and begin a new transaction";
+  throw Error(std::move(problem));
+}
+
+// ---- changes ----
+
+bool Writer::add(const Quad& quad, Version version) {
+  const std::uint32_t subject = quad.subject.value, predicate = quad.predicate.value;
+  const std::uint32_t object = quad.object.value;
+  check_room();
+  Change change{};
+  change.pairs[kListSP] = pair_posting(kListSP, subject, predicate);
+  change.pairs[kListPO] = pair_posting(kListPO, predicate, object);
+  change.pairs[kListOS] = pair_posting(kListOS, object, subject);
+  const std::uint32_t present = records.search(
+      records.postings[change.pairs[kListSP]], records.postings[change.pairs[kListPO]],
+      records.postings[change.pairs[kListOS]], subject, predicate, object, version);
+  if (present) {
+    if (find_membership(present, quad.graph.value)) return false;
+    change.kind = Change::kAddMembership;
+    change.record = present;
+    change.membership = append_membership(present, quad.graph.value, version, change);
+    log_.push_back(change);
+    return true;
+  }
+
+  change.kind = Change::kAddTriple;
+  const std::uint32_t number = records.triple_count + 1;
+  change.record = number;
+  Triple& triple = records.triples.reserve(number);
+  store(triple.added, version);
+  store(triple.removed, kNever);
+  triple.subject = subject;
+  triple.predicate = predicate;
+  triple.object = object;
+  store(triple.graph, quad.graph.value);
+  store(triple.first_membership, 0);
+  triple.last_membership = 0;
+  for (std::uint32_t& next : triple.next) store(next, 0);
+  change.membership = append_membership(number, quad.graph.value, version, change);
+
+  const std::uint32_t lists[kLists] = {change.pairs[kListSP],
+                                       change.pairs[kListPO],
+                                       change.pairs[kListOS],
+                                       single_posting(kListS, subject),
+                                       single_posting(kListP, predicate),
+                                       single_posting(kListO, object)};
+  for (std::uint32_t list = 0; list < kLists; ++list) {
+    Posting& posting = records.postings[lists[list]];
+    change.tails[list] = posting.tail;
+    store(posting.tail == 0 ? posting.head : records.triples[posting.tail].next[list], number);
+    posting.tail = number;
+    store(posting.count, posting.count + 1);
+    if (posting.count == 1 && list < kListOS) count_pair(static_cast<List>(list), lists[list], 1);
+  }
+  store(records.triple_count, number);
+  ++records.live_count;
+  log_.push_back(change);
+  return true;
+}
+
+std::uint32_t Writer::append_membership(std::uint32_t triple_number, std::uint32_t graph_name,
+                                        Version version, Change& change) {
+  Graph& graph = records.graphs[graph_number(graph_name)];
+  Triple& triple = records.triples[triple_number];
+  const std::uint32_t number = ++records.membership_count;
+  Membership& membership = records.memberships.reserve(number);
+  store(membership.added, version);
+  store(membership.removed, kNever);
+  membership.triple = triple_number;
+  membership.graph = graph_name;
+  store(membership.next_of_triple, 0);
+  store(membership.next_in_graph, 0);
+
+  Posting& members = records.postings[graph.members];
+  change.graph_tail = members.tail;
+  store(members.tail == 0 ? members.head : records.memberships[members.tail].next_in_graph, number);
+  members.tail = number;
+  store(members.count, members.count + 1);
+
+  if (triple.last_membership == 0) {
+    store(triple.first_membership, number);
+  } else {
+    change.tails[0] = triple.last_membership;
+    change.graph = triple.graph;
+    store(records.memberships[triple.last_membership].next_of_triple, number);
+    store(triple.graph, kSeveralGraphs);
+  }
+  triple.last_membership = number;
+  return number;
+}
+
+// The live membership, or 0. The triple's and the graph's memberships are walked side by side, so
+// the shorter list bounds the time.
+std::uint32_t Writer::find_membership(std::uint32_t triple_number, std::uint32_t graph_name) const {
+  const Triple& triple = records.triples[triple_number];
+  const auto is_it = [&](std::uint32_t number) {
+    const Membership& membership = records.memberships[number];
+    return membership.triple == triple_number && membership.graph == graph_name &&
+           membership.removed == kNever;
+  };
+  if (triple.graph != kSeveralGraphs) {
+    return triple.graph == graph_name ? triple.first_membership : 0;
+  }
+  const Graph* graph = records.graph(graph_name);
+  if (!graph) return 0;
+  std::uint32_t of_triple = triple.first_membership;
+  std::uint32_t in_graph = records.postings[graph->members].head;
+  while (of_triple != 0 && in_graph != 0) {
+    if (is_it(of_triple)) return of_triple;
+    if (is_it(in_graph)) return in_graph;
+    of_triple = records.memberships[of_triple].next_of_triple;
+    in_graph = records.memberships[in_graph].next_in_graph;
+  }
+  return 0;
+}
+
+bool Writer::remove(const Quad& quad, Version version) {
+  const std::uint32_t triple =
+      records.find(quad.subject.value, quad.predicate.value, quad.object.value, version);
+  const std::uint32_t membership = triple ? find_membership(triple, quad.graph.value) : 0;
+  if (!membership) return false;
+  if (log_.size() == log_.capacity()) log_.reserve(log_.size() * 2 + 16);
+  remove_membership(membership, version);
+  return true;
+}
+
+void Writer::remove_membership(std::uint32_t number, Version version) {
+  Membership& membership = records.memberships[number];
+  Triple& triple = records.triples[membership.triple];
+  store(membership.removed, version);
+  Change change{};
+  change.kind = Change::kRemove;
+  change.record = membership.triple;
+  change.membership = number;
+  change.last = true;
+  if (triple.graph == kSeveralGraphs) {
+    for (std::uint32_t at = triple.first_membership; at != 0 && change.last;) {
+      change.last = records.memberships[at].removed != kNever;
+      at = records.memberships[at].next_of_triple;
+    }
+  }
+  if (change.last) {
+    store(triple.removed, version);
+    --records.live_count;
+  }
+  log_.push_back(change);
+}
+
+void Writer::clear(std::uint32_t name, Version version) {
+  const Graph* graph = records.graph(name);
+  if (!graph) return;
+  for (std::uint32_t at = records.postings[graph->members].head; at != 0;) {
+    if (records.memberships[at].removed == kNever) remove_membership(at, version);
+    at = records.memberships[at].next_in_graph;
+  }
+}
+
+void Writer::create_graph(std::uint32_t name, Version version) {
+  const std::uint32_t number = graph_number(name);
+  Graph& graph = records.graphs[number];
+  for (std::uint32_t at = graph.marks; at != 0; at = records.marks[at].next) {
+    if (records.marks[at].removed == kNever) return;
+  }
+  const std::uint32_t mark_number = ++records.mark_count;
+  GraphMark& mark = records.marks.reserve(mark_number);
+  store(mark.added, version);
+  store(mark.removed, kNever);
+  store(mark.next, graph.marks);
+  store(graph.marks, mark_number);
+  Change change{};
+  change.kind = Change::kAddMark;
+  change.record = mark_number;
+  change.graph = number;
+  log_.push_back(change);
+}
+
+void Writer::drop_graph(std::uint32_t name, Version version) {
+  clear(name, version);
+  const Graph* graph = records.graph(name);
+  if (!graph) return;
+  for (std::uint32_t at = graph->marks; at != 0; at = records.marks[at].next) {
+    if (records.marks[at].removed != kNever) continue;
+    store(records.marks[at].removed, version);
+    Change change{};
+    change.kind = Change::kRemoveMark;
+    change.record = at;
+    log_.push_back(change);
+  }
+}
+
+// ---- taking back ----
+
+void Writer::undo_to(std::size_t mark) {
+  while (log_.size() > mark) {
+    undo(log_.back());
+    log_.pop_back();
+  }
+}
+
+void Writer::undo(const Change& change) {
+  switch (change.kind) {
+    case Change::kAddTriple: {
+      const Triple& triple = records.triples[change.record];
+      const std::uint32_t lists[kLists] = {change.pairs[kListSP],
+                                           change.pairs[kListPO],
+                                           change.pairs[kListOS],
+                                           records.nodes[triple.subject].as_subject,
+                                           records.nodes[triple.predicate].as_predicate,
+                                           records.nodes[triple.object].as_object};
+      for (std::uint32_t list = 0; list < kLists; ++list) {
+        Posting& posting = records.postings[lists[list]];
+        const std::uint32_t tail = change.tails[list];
+        store(tail == 0 ? posting.head : records.triples[tail].next[list], 0);
+        posting.tail = tail;
+        store(posting.count, posting.count - 1);
+        if (posting.count == 0 && list < kListOS) {
+          count_pair(static_cast<List>(list), lists[list], -1);
+        }
+      }
+      undo_membership(change);
+      store(records.triple_count, records.triple_count - 1);
+      --records.live_count;
+      break;
+    }
+    case Change::kAddMembership: {
+      Triple& triple = records.triples[change.record];
+      triple.last_membership = change.tails[0];
+      store(records.memberships[change.tails[0]].next_of_triple, 0);
+      store(triple.graph, change.graph);
+      undo_membership(change);
+      break;
+    }
+    case Change::kRemove:
+      store(records.memberships[change.membership].removed, kNever);
+      if (change.last) {
+        store(records.triples[change.record].removed, kNever);
+        ++records.live_count;
+      }
+      break;
+    case Change::kAddMark:
+      store(records.graphs[change.graph].marks, records.marks[change.record].next);
+      --records.mark_count;
+      break;
+    case Change::kRemoveMark:
+      store(records.marks[change.record].removed, kNever);
+      break;
+  }
+}
+
+void Writer::undo_membership(const Change& change) {
+  const Membership& membership = records.memberships[change.membership];
+  const Graph& graph = *records.graph(membership.graph);
+  Posting& members = records.postings[graph.members];
+  store(
+      change.graph_tail == 0 ? members.head : records.memberships[change.graph_tail].next_in_graph,
+      0);
+  members.tail = change.graph_tail;
+  store(members.count, members.count - 1);
+  --records.membership_count;
+}
+
+// ---- sweeping ----
+
+void Writer::finish(Version oldest) {
+  for (const Change& change : log_) {
+    if (change.kind != Change::kRemove && change.kind != Change::kRemoveMark) continue;
+    ++dead_records_;
+    if (change.kind == Change::kRemoveMark) continue;
+    const std::uint32_t graph = records.memberships[change.membership].graph;
+    sweep_graph(records.graph(graph)->members, oldest);
+    Triple& triple = records.triples[change.record];
+    if (!change.last) {
+      if (change.membership % kTripleSweep == 0) sweep_triple(triple, oldest);
+      continue;
+    }
+    sweep(pair_posting(kListSP, triple.subject, triple.predicate), kListSP, oldest);
+    sweep(pair_posting(kListPO, triple.predicate, triple.object), kListPO, oldest);
+    sweep(pair_posting(kListOS, triple.object, triple.subject), kListOS, oldest);
+    sweep(node_posting(kListS, triple.subject), kListS, oldest);
+    sweep(node_posting(kListP, triple.predicate), kListP, oldest);
+    sweep(node_posting(kListO, triple.object), kListO, oldest);
+  }
+  log_.clear();
+  if (log_.capacity() > kLargeLog) log_.shrink_to_fit();
+}
+
+namespace {
+
+// Unlinks what no reader needs. Returns the number of records that were removed but must stay.
+template <typename Record, typename Next>
+std::uint32_t unlink(StableArray<Record>& array, std::uint32_t& head, std::uint32_t& tail,
+                     std::uint32_t& count, Version oldest, Next&& next) {
+  std::uint32_t kept = 0, last = 0, left = 0;
+  for (std::uint32_t at = head; at != 0;) {
+    const std::uint32_t following = next(array[at]);
+    if (array[at].removed <= oldest) {
+      store(last == 0 ? head : next(array[last]), following);
+    } else {
+      if (array[at].removed != kNever) ++kept;
+      last = at;
+      ++left;
+    }
+    at = following;
+  }
+  tail = last;
+  store(count, left);
+  return kept;
+}
+
+bool patient(Posting& posting) {
+  if (posting.patience == 0) return posting.count == 0;
+  --posting.patience;
+  return true;
+}
+
+}  // namespace
+
+void Writer::sweep(std::uint32_t number, List list, Version oldest) {
+  Posting& posting = records.postings[number];
+  if (patient(posting)) return;
+  const std::uint32_t kept =
+      unlink(records.triples, posting.head, posting.tail, posting.count, oldest,
+             [list](Triple& triple) -> std::uint32_t& { return triple.next[list]; });
+  posting.patience = posting.count + kept + kFirstPatience;
+  if (posting.count == 0 && list < kListOS) count_pair(list, number, -1);
+}
+
+void Writer::sweep_graph(std::uint32_t number, Version oldest) {
+  Posting& posting = records.postings[number];
+  if (patient(posting)) return;
+  const std::uint32_t kept =
+      unlink(records.memberships, posting.head, posting.tail, posting.count, oldest,
+             [](Membership& membership) -> std::uint32_t& { return membership.next_in_graph; });
+  posting.patience = posting.count + kept + kFirstPatience;
+}
+
+void Writer::sweep_triple(Triple& triple, Version oldest) {
+  std::uint32_t count = 0;
+  unlink(records.memberships, triple.first_membership, triple.last_membership, count, oldest,
+         [](Membership& membership) -> std::uint32_t& { return membership.next_of_triple; });
+}
+
+}  // namespace sinew::graph

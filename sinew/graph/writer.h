@@ -1,0 +1,78 @@
+// Writing to the records: what one transaction does, how it is taken back, and how removed records
+// are unlinked. Private to the store; one writer at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sinew/graph/records.h"
+#include "sinew/graph/view.h"
+
+namespace sinew::graph {
+
+// What one change did, for taking it back: 64 bytes. Additions remember where they were appended.
+struct Change {
+  enum Kind : std::uint32_t { kAddTriple, kAddMembership, kRemove, kAddMark, kRemoveMark };
+  Kind kind;
+  std::uint32_t record;         // the triple, or the mark
+  std::uint32_t graph_tail;     // the graph's last membership before
+  std::uint32_t pairs[3];       // kAddTriple: the postings of SP, PO, OS
+  std::uint32_t tails[kLists];  // kAddTriple: each list's last triple before;
+                                // kAddMembership: [0] the triple's last membership before
+  std::uint32_t graph;          // kAddMembership: Triple::graph before; marks: the graph's number
+  std::uint32_t membership;     // the one that was added or removed
+  bool last;                    // kRemove: the triple is gone with its last membership
+};
+
+class Writer {
+ public:
+  explicit Writer(std::uint32_t limit);
+
+  Records records;
+
+  // All changes are made at `version`, which is later than that of every reader.
+  bool add(const Quad& quad, Version version);
+  bool remove(const Quad& quad, Version version);
+  void clear(std::uint32_t graph, Version version);
+  void create_graph(std::uint32_t graph, Version version);
+  void drop_graph(std::uint32_t graph, Version version);
+
+  std::size_t changes() const { return log_.size(); }
+  void undo_to(std::size_t mark);
+  // Forgets how to undo. Records that were removed and that no reader of version `oldest` or later
+  // can see are unlinked, list by list, when as many were removed from a list as remained: constant
+  // time a removal in the long run.
+  void finish(Version oldest);
+
+  // Memberships and marks that were removed for good and still take space.
+  std::uint32_t dead_records() const { return dead_records_; }
+
+ private:
+  static constexpr std::uint32_t kFirstPatience = 2;
+  // A triple's memberships have no counter: one removal in so many sweeps them.
+  static constexpr std::uint32_t kTripleSweep = 16;
+  static constexpr std::size_t kLargeLog = 1 << 16;
+
+  std::uint32_t pair_posting(List list, std::uint32_t first, std::uint32_t second);
+  std::uint32_t& node_posting(List list, std::uint32_t term);
+  std::uint32_t single_posting(List list, std::uint32_t term);
+  std::uint32_t graph_number(std::uint32_t name);
+  std::uint32_t find_membership(std::uint32_t triple, std::uint32_t graph) const;
+  std::uint32_t append_membership(std::uint32_t triple, std::uint32_t graph, Version version,
+                                  Change& change);
+  void remove_membership(std::uint32_t membership, Version version);
+  void undo(const Change& change);
+  void undo_membership(const Change& change);
+  void check_room();
+  void count_pair(List list, std::uint32_t posting, int by);
+  void sweep(std::uint32_t posting, List list, Version oldest);
+  void sweep_graph(std::uint32_t posting, Version oldest);
+  void sweep_triple(Triple& triple, Version oldest);
+
+  std::uint32_t limit_;
+  std::uint32_t dead_records_ = 0;
+  std::vector<Change> log_;
+};
+
+}  // namespace sinew::graph
