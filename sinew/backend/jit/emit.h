@@ -1,0 +1,29 @@
+// From the scalar data-flow graph to LLVM IR. The graph is optimised already, so the IR is
+// straight-line code with explicit fused multiply-adds: what LLVM adds is instruction selection,
+// scheduling and registers.
+#pragma once
+
+#include <llvm-c/Core.h>
+
+#include "sinew/program/dag/dag.h"
+
+namespace sinew::backend {
+
+inline constexpr unsigned kBatchLanes = 8;
+inline constexpr const char* kSingleName = "sinew_single";
+inline constexpr const char* kBlockName = "sinew_block";
+// void(const double* x, double* sine, double* cosine, size_t n): see sincos.h.
+inline constexpr const char* kSincosRepairName = "sinew_sincos_repair";
+
+// A module with
+//   void sinew_single(const double* in, double* out)
+//   void sinew_block(const double* in, double* out, size_t stride)   kBatchLanes samples: input i
+//   of sample k
+//                                                                    at in[i * stride + k], outputs
+//                                                                    likewise
+// `fuse` contracts products that are used once into fused multiply-adds, the same ones in both
+// functions, so that both give the same bits.
+LLVMModuleRef emit_module(LLVMContextRef context, const program::Computation& computation,
+                          bool fuse);
+
+}  // namespace sinew::backend

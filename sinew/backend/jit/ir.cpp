@@ -1,0 +1,127 @@
+#include "sinew/backend/jit/ir.h"
+
+#include <cstring>
+#include <vector>
+
+namespace sinew::backend {
+namespace {
+
+bool is_vector(LLVMTypeRef type) { return LLVMGetTypeKind(type) == LLVMVectorTypeKind; }
+
+LLVMValueRef in_every_lane(LLVMValueRef value, LLVMTypeRef type) {
+  if (!is_vector(type)) return value;
+  std::vector<LLVMValueRef> values(LLVMGetVectorSize(type), value);
+  return LLVMConstVector(values.data(), static_cast<unsigned>(values.size()));
+}
+
+}  // namespace
+
+Ir::Ir(LLVMBuilderRef builder, LLVMTypeRef type, bool fuse)
+    : builder_(builder),
+      context_(LLVMGetTypeContext(type)),
+      type_(type),
+      lanes_(is_vector(type) ? LLVMGetVectorSize(type) : 1),
+      fuse_(fuse) {
+  const LLVMTypeRef integer64 = LLVMInt64TypeInContext(context_);
+  integer_type_ = is_vector(type) ? LLVMVectorType(integer64, lanes_) : integer64;
+}
+
+LLVMValueRef Ir::number(double value) const {
+  return in_every_lane(LLVMConstReal(LLVMDoubleTypeInContext(context_), value), type_);
+}
+
+LLVMValueRef Ir::integer(std::uint64_t value) const {
+  return in_every_lane(LLVMConstInt(LLVMInt64TypeInContext(context_), value, false), type_);
+}
+
+LLVMValueRef Ir::add(LLVMValueRef a, LLVMValueRef b) const {
+  return LLVMBuildFAdd(builder_, a, b, "");
+}
+LLVMValueRef Ir::subtract(LLVMValueRef a, LLVMValueRef b) const {
+  return LLVMBuildFSub(builder_, a, b, "");
+}
+LLVMValueRef Ir::multiply(LLVMValueRef a, LLVMValueRef b) const {
+  return LLVMBuildFMul(builder_, a, b, "");
+}
+LLVMValueRef Ir::divide(LLVMValueRef a, LLVMValueRef b) const {
+  return LLVMBuildFDiv(builder_, a, b, "");
+}
+LLVMValueRef Ir::negate(LLVMValueRef a) const { return LLVMBuildFNeg(builder_, a, ""); }
+
+LLVMValueRef Ir::intrinsic(const char* name, LLVMValueRef* arguments, unsigned count) const {
+  const unsigned id = LLVMLookupIntrinsicID(name, std::strlen(name));
+  const LLVMModuleRef module =
+      LLVMGetGlobalParent(LLVMGetBasicBlockParent(LLVMGetInsertBlock(builder_)));
+  LLVMTypeRef overload = type_;
+  const LLVMValueRef function = LLVMGetIntrinsicDeclaration(module, id, &overload, 1);
+  const LLVMTypeRef type = LLVMIntrinsicGetType(context_, id, &overload, 1);
+  return LLVMBuildCall2(builder_, type, function, arguments, count, "");
+}
+
+LLVMValueRef Ir::square_root(LLVMValueRef a) const { return intrinsic("llvm.sqrt", &a, 1); }
+
+LLVMValueRef Ir::multiply_add(LLVMValueRef a, LLVMValueRef b, LLVMValueRef c) const {
+  if (!fuse_) return add(multiply(a, b), c);
+  LLVMValueRef arguments[] = {a, b, c};
+  return intrinsic("llvm.fma", arguments, 3);
+}
+
+LLVMValueRef Ir::less(LLVMValueRef a, LLVMValueRef b) const {
+  return LLVMBuildFCmp(builder_, LLVMRealOLT, a, b, "");
+}
+LLVMValueRef Ir::select(LLVMValueRef mask, LLVMValueRef if_true, LLVMValueRef if_false) const {
+  return LLVMBuildSelect(builder_, mask, if_true, if_false, "");
+}
+
+LLVMValueRef Ir::to_integer_bits(LLVMValueRef a) const {
+  return LLVMBuildBitCast(builder_, a, integer_type_, "");
+}
+LLVMValueRef Ir::add_integer(LLVMValueRef bits, std::uint64_t value) const {
+  return LLVMBuildAdd(builder_, bits, integer(value), "");
+}
+LLVMValueRef Ir::bit_is_set(LLVMValueRef bits, unsigned bit) const {
+  const LLVMValueRef masked = LLVMBuildAnd(builder_, bits, integer(std::uint64_t{1} << bit), "");
+  return LLVMBuildICmp(builder_, LLVMIntNE, masked, integer(0), "");
+}
+LLVMValueRef Ir::move_bit_to_sign(LLVMValueRef bits, unsigned bit) const {
+  const LLVMValueRef masked = LLVMBuildAnd(builder_, bits, integer(std::uint64_t{1} << bit), "");
+  return LLVMBuildShl(builder_, masked, integer(63 - bit), "");
+}
+LLVMValueRef Ir::flip_sign(LLVMValueRef a, LLVMValueRef sign_bits) const {
+  return LLVMBuildBitCast(builder_, LLVMBuildXor(builder_, to_integer_bits(a), sign_bits, ""),
+                          type_, "");
+}
+LLVMValueRef Ir::magnitude_at_most(LLVMValueRef a, double limit) const {
+  const LLVMValueRef magnitude = intrinsic("llvm.fabs", &a, 1);
+  return LLVMBuildFCmp(builder_, LLVMRealOLE, magnitude, number(limit), "");
+}
+
+LLVMValueRef Ir::all(LLVMValueRef mask) const {
+  if (lanes_ == 1) return mask;
+  const LLVMTypeRef bits = LLVMIntTypeInContext(context_, lanes_);
+  const LLVMValueRef packed = LLVMBuildBitCast(builder_, mask, bits, "");
+  return LLVMBuildICmp(builder_, LLVMIntEQ, packed, LLVMConstAllOnes(bits), "");
+}
+
+LLVMValueRef Ir::entry_array(LLVMValueRef function, std::size_t n) const {
+  const LLVMBuilderRef at_entry = LLVMCreateBuilderInContext(context_);
+  const LLVMBasicBlockRef entry = LLVMGetEntryBasicBlock(function);
+  LLVMPositionBuilderBefore(at_entry, LLVMGetFirstInstruction(entry));
+  const LLVMValueRef array =
+      LLVMBuildAlloca(at_entry, LLVMArrayType(type_, static_cast<unsigned>(n)), "");
+  LLVMDisposeBuilder(at_entry);
+  return array;
+}
+
+LLVMValueRef Ir::element(LLVMValueRef array, std::size_t index) const {
+  LLVMValueRef at = LLVMConstInt(LLVMInt64TypeInContext(context_), index, false);
+  return LLVMBuildInBoundsGEP2(builder_, type_, array, &at, 1, "");
+}
+void Ir::store_element(LLVMValueRef value, LLVMValueRef array, std::size_t index) const {
+  LLVMBuildStore(builder_, value, element(array, index));
+}
+LLVMValueRef Ir::load_element(LLVMValueRef array, std::size_t index) const {
+  return LLVMBuildLoad2(builder_, type_, element(array, index), "");
+}
+
+}  // namespace sinew::backend

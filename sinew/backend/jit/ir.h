@@ -1,0 +1,59 @@
+// Arithmetic on one scalar or vector type of LLVM IR, so that the code generators read like
+// formulas.
+#pragma once
+
+#include <llvm-c/Core.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace sinew::backend {
+
+class Ir {
+ public:
+  // `type`: double or a vector of doubles. `fuse`: multiply_add rounds once.
+  Ir(LLVMBuilderRef builder, LLVMTypeRef type, bool fuse);
+
+  LLVMContextRef context() const { return context_; }
+  LLVMTypeRef type() const { return type_; }
+  unsigned lanes() const { return lanes_; }
+
+  LLVMValueRef number(double value) const;  // in every lane
+  LLVMValueRef add(LLVMValueRef a, LLVMValueRef b) const;
+  LLVMValueRef subtract(LLVMValueRef a, LLVMValueRef b) const;
+  LLVMValueRef multiply(LLVMValueRef a, LLVMValueRef b) const;
+  LLVMValueRef divide(LLVMValueRef a, LLVMValueRef b) const;
+  LLVMValueRef negate(LLVMValueRef a) const;
+  LLVMValueRef square_root(LLVMValueRef a) const;
+  // a * b + c; one rounding or two, as `fuse` says
+  LLVMValueRef multiply_add(LLVMValueRef a, LLVMValueRef b, LLVMValueRef c) const;
+  LLVMValueRef less(LLVMValueRef a, LLVMValueRef b) const;  // a mask
+  LLVMValueRef select(LLVMValueRef mask, LLVMValueRef if_true, LLVMValueRef if_false) const;
+
+  LLVMValueRef to_integer_bits(LLVMValueRef a) const;  // the same bits as 64-bit integers
+  LLVMValueRef add_integer(LLVMValueRef bits, std::uint64_t value) const;
+  LLVMValueRef bit_is_set(LLVMValueRef bits, unsigned bit) const;        // a mask
+  LLVMValueRef move_bit_to_sign(LLVMValueRef bits, unsigned bit) const;  // all others 0
+  LLVMValueRef flip_sign(LLVMValueRef a, LLVMValueRef sign_bits) const;
+  LLVMValueRef magnitude_at_most(LLVMValueRef a, double limit) const;  // a mask; false for NaN
+  LLVMValueRef all(LLVMValueRef mask) const;                           // one bit
+
+  // An array of n values of the type, as a pointer to its first; allocated in the entry block.
+  LLVMValueRef entry_array(LLVMValueRef function, std::size_t n) const;
+  void store_element(LLVMValueRef value, LLVMValueRef array, std::size_t index) const;
+  LLVMValueRef load_element(LLVMValueRef array, std::size_t index) const;
+
+ private:
+  LLVMValueRef integer(std::uint64_t value) const;
+  LLVMValueRef element(LLVMValueRef array, std::size_t index) const;
+  LLVMValueRef intrinsic(const char* name, LLVMValueRef* arguments, unsigned count) const;
+
+  LLVMBuilderRef builder_;
+  LLVMContextRef context_;
+  LLVMTypeRef type_;
+  LLVMTypeRef integer_type_;
+  unsigned lanes_;
+  bool fuse_;
+};
+
+}  // namespace sinew::backend

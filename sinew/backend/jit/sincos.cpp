@@ -1,0 +1,140 @@
+#include "sinew/backend/jit/sincos.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+#include "sinew/backend/jit/ir.h"
+
+namespace sinew::backend {
+namespace {
+
+constexpr double kLargestAngle = 1e5;
+
+constexpr double kTwoOverPi = 6.36619772367581382433e-01;
+// Adding and taking away 1.5 * 2^52 rounds to an integer and leaves it in the low bits.
+constexpr double kRounder = 6755399441055744.0;
+// pi/2 in parts: the first two have 33 bits, so their products with quotients below 2^20 are exact.
+constexpr double kHalfPi1 = 1.57079632673412561417e+00;
+constexpr double kHalfPi2 = 6.07710050630396597660e-11;
+constexpr double kHalfPi3 = 2.02226624879595063154e-21;
+
+// sin(r) = r + r^3 (s[0] + s[1] r^2 + ...), cos(r) = 1 - r^2/2 + r^4 (c[0] + c[1] r^2 + ...)
+constexpr double kSine[] = {-1.66666666666666324348e-01, 8.33333333332248946124e-03,
+                            -1.98412698298579493134e-04, 2.75573137070700676789e-06,
+                            -2.50507602534068634195e-08, 1.58969099521155010221e-10};
+constexpr double kCosine[] = {4.16666666666666019037e-02, -1.38888888888741095749e-03,
+                              2.48015872894767294178e-05, -2.75573143513906633035e-07,
+                              2.08757232129817482790e-09, -1.13596475577881948265e-11};
+
+LLVMValueRef horner(const Ir& ir, LLVMValueRef z, const double (&coefficients)[6]) {
+  LLVMValueRef sum = ir.number(coefficients[5]);
+  for (int i = 4; i >= 0; --i) sum = ir.multiply_add(sum, z, ir.number(coefficients[i]));
+  return sum;
+}
+
+struct Pair {
+  LLVMValueRef sine, cosine;
+};
+
+Pair fast_sincos(const Ir& ir, LLVMValueRef x) {
+  const LLVMValueRef shifted = ir.add(ir.multiply(x, ir.number(kTwoOverPi)), ir.number(kRounder));
+  const LLVMValueRef quotient = ir.subtract(shifted, ir.number(kRounder));
+  const LLVMValueRef bits = ir.to_integer_bits(shifted);
+
+  // r + tail = x - quotient * pi/2. Each step keeps what its subtraction rounds away.
+  const LLVMValueRef r1 = ir.subtract(x, ir.multiply(quotient, ir.number(kHalfPi1)));
+  const LLVMValueRef w2 = ir.multiply(quotient, ir.number(kHalfPi2));
+  const LLVMValueRef r2 = ir.subtract(r1, w2);
+  const LLVMValueRef e2 = ir.subtract(ir.subtract(r1, r2), w2);
+  const LLVMValueRef w3 = ir.subtract(ir.multiply(quotient, ir.number(kHalfPi3)), e2);
+  const LLVMValueRef r = ir.subtract(r2, w3);
+  const LLVMValueRef tail = ir.subtract(ir.subtract(r2, r), w3);
+
+  const LLVMValueRef z = ir.multiply(r, r);
+  // sin(r + tail) ~ sin(r) + tail (1 - z/2)
+  const LLVMValueRef cube = ir.multiply(z, r);
+  const LLVMValueRef half_z = ir.multiply(z, ir.number(0.5));
+  const LLVMValueRef sine_tail = ir.subtract(tail, ir.multiply(half_z, tail));
+  const LLVMValueRef sine = ir.add(r, ir.multiply_add(cube, horner(ir, z, kSine), sine_tail));
+  // cos(r + tail) ~ cos(r) - r tail, with 1 - z/2 rounded once and its error put back
+  const LLVMValueRef one_minus = ir.subtract(ir.number(1.0), half_z);
+  const LLVMValueRef error = ir.subtract(ir.subtract(ir.number(1.0), one_minus), half_z);
+  const LLVMValueRef rest = ir.multiply_add(ir.multiply(z, z), horner(ir, z, kCosine),
+                                            ir.subtract(error, ir.multiply(r, tail)));
+  const LLVMValueRef cosine = ir.add(one_minus, rest);
+
+  // Quadrant q: (sin, cos) = (s, c), (c, -s), (-s, -c), (-c, s).
+  const LLVMValueRef odd = ir.bit_is_set(bits, 0);
+  const LLVMValueRef sign_of_sine = ir.move_bit_to_sign(bits, 1);
+  const LLVMValueRef sign_of_cosine = ir.move_bit_to_sign(ir.add_integer(bits, 1), 1);
+  return {ir.flip_sign(ir.select(odd, cosine, sine), sign_of_sine),
+          ir.flip_sign(ir.select(odd, sine, cosine), sign_of_cosine)};
+}
+
+}  // namespace
+
+SincosValues emit_sincos(LLVMBuilderRef builder, LLVMValueRef function, LLVMValueRef repair,
+                         const std::vector<LLVMValueRef>& angles, bool fuse) {
+  SincosValues values;
+  if (angles.empty()) return values;
+  const Ir ir(builder, LLVMTypeOf(angles.front()), fuse);
+
+  LLVMValueRef covered = nullptr;
+  for (const LLVMValueRef x : angles) {
+    const Pair pair = fast_sincos(ir, x);
+    values.sine.push_back(pair.sine);
+    values.cosine.push_back(pair.cosine);
+    const LLVMValueRef in_range = ir.magnitude_at_most(x, kLargestAngle);
+    covered = covered == nullptr ? in_range : LLVMBuildAnd(builder, covered, in_range, "");
+  }
+
+  const LLVMContextRef context = ir.context();
+  const LLVMBasicBlockRef fast = LLVMGetInsertBlock(builder);
+  const LLVMBasicBlockRef slow = LLVMAppendBasicBlockInContext(context, function, "repair");
+  const LLVMBasicBlockRef next = LLVMAppendBasicBlockInContext(context, function, "reduced");
+  LLVMBuildCondBr(builder, ir.all(covered), next, slow);
+
+  // The repair works in memory; the arrays are made in the entry block so that they are made once.
+  LLVMPositionBuilderAtEnd(builder, slow);
+  const LLVMValueRef x_array = ir.entry_array(function, angles.size());
+  const LLVMValueRef sine_array = ir.entry_array(function, angles.size());
+  const LLVMValueRef cosine_array = ir.entry_array(function, angles.size());
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    ir.store_element(angles[i], x_array, i);
+    ir.store_element(values.sine[i], sine_array, i);
+    ir.store_element(values.cosine[i], cosine_array, i);
+  }
+  LLVMValueRef arguments[] = {
+      x_array, sine_array, cosine_array,
+      LLVMConstInt(LLVMInt64TypeInContext(context), angles.size() * ir.lanes(), false)};
+  LLVMBuildCall2(builder, LLVMGlobalGetValueType(repair), repair, arguments, 4, "");
+  std::vector<LLVMValueRef> repaired_sine, repaired_cosine;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    repaired_sine.push_back(ir.load_element(sine_array, i));
+    repaired_cosine.push_back(ir.load_element(cosine_array, i));
+  }
+  LLVMBuildBr(builder, next);
+
+  LLVMPositionBuilderAtEnd(builder, next);
+  const auto merge = [&](LLVMValueRef& value, LLVMValueRef repaired) {
+    const LLVMValueRef phi = LLVMBuildPhi(builder, LLVMTypeOf(value), "");
+    LLVMValueRef incoming[] = {value, repaired};
+    LLVMBasicBlockRef blocks[] = {fast, slow};
+    LLVMAddIncoming(phi, incoming, blocks, 2);
+    value = phi;
+  };
+  for (std::size_t i = 0; i < angles.size(); ++i) merge(values.sine[i], repaired_sine[i]);
+  for (std::size_t i = 0; i < angles.size(); ++i) merge(values.cosine[i], repaired_cosine[i]);
+  return values;
+}
+
+extern "C" void sinew_sincos_repair(const double* x, double* sine, double* cosine, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (std::fabs(x[i]) <= kLargestAngle) continue;
+    sine[i] = std::sin(x[i]);
+    cosine[i] = std::cos(x[i]);
+  }
+}
+
+}  // namespace sinew::backend

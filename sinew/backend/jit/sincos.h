@@ -1,0 +1,29 @@
+// Sines and cosines of many angles at once, as LLVM IR on vectors.
+//
+// Method: Cody & Waite reduction by multiples of pi/2 in three parts of 33, 33 and 53 bits (exact
+// products for quotients below 2^20), then the minimax polynomials of fdlibm's __kernel_sin and
+// __kernel_cos (Sun Microsystems, 1993) on [-pi/4, pi/4] with the remainder's low part. Error below
+// 1 ulp for |x| <= 1e5. Angles beyond, infinities and NaN are repaired by a call to libm, lane by
+// lane, so no lane depends on its neighbours.
+#pragma once
+
+#include <llvm-c/Core.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace sinew::backend {
+
+struct SincosValues {
+  std::vector<LLVMValueRef> sine, cosine;  // as wide as the angles
+};
+
+// `angles` are doubles or vectors of doubles, all of the same type. Leaves the builder in the block
+// where the code goes on. `repair` is a declaration of kSincosRepairName in the same module.
+SincosValues emit_sincos(LLVMBuilderRef builder, LLVMValueRef function, LLVMValueRef repair,
+                         const std::vector<LLVMValueRef>& angles, bool fuse);
+
+// Replaces what is wrong for angles that the fast method does not cover.
+extern "C" void sinew_sincos_repair(const double* x, double* sine, double* cosine, std::size_t n);
+
+}  // namespace sinew::backend
