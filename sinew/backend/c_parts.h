@@ -1,0 +1,57 @@
+// The parts from which the C target puts its files together; internal to `backend`.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sinew/backend/c_target.h"
+#include "sinew/backend/render.h"
+#include "sinew/program/dag/dag.h"
+#include "sinew/program/interface.h"
+#include "sinew/program/program.h"
+
+namespace sinew::backend {
+
+// Lines of a text that exist because of a closure.
+struct LineOrigin {
+  std::size_t line = 0;  // counted from 1
+  std::uint32_t closure = program::kNoOrigin;
+};
+
+// Lines of code with the closure that each comes from.
+struct CodeBlock {
+  std::string text;  // every line ends with a newline
+  std::vector<LineOrigin> origins;
+  std::size_t lines = 0;
+
+  void add(const std::string& line, std::uint32_t closure = program::kNoOrigin);
+};
+
+struct RenderedSource {
+  std::string text;
+  std::vector<LineOrigin> origins;  // of the whole text
+};
+
+// Renders a template with `block` in the place of {{{body}}}, which stands alone on its line.
+RenderedSource render_with_body(std::string_view path, Fields fields, const CodeBlock& block);
+
+// The name, sizes, banner and lists of inputs, outputs and states.
+Fields common_fields(const program::Program& program, const program::Interface& interface,
+                     const COptions& options, const program::OperationCount& operations);
+
+// A distinct C identifier for each variable of the program.
+std::vector<std::string> variable_identifiers(const program::Program& program);
+
+RenderedSource flat_source(const program::Program& program, const program::Interface& interface,
+                           const program::Computation& computation, const Fields& common);
+RenderedSource readable_source(const program::Program& program, const program::Interface& interface,
+                               const Fields& common);
+
+// NAME.json: names, units, frames and offsets; operations; which line of NAME.c comes from which
+// closure, step and model element (docs/generated-code.md).
+std::string sidecar(const program::Program& program, const program::Interface& interface,
+                    const COptions& options, const program::OperationCount& operations,
+                    const std::vector<LineOrigin>& origins);
+
+}  // namespace sinew::backend

@@ -1,0 +1,87 @@
+// The readable style: what a person would write by hand with the support library.
+#include <fmt/format.h>
+
+#include "sinew/backend/c_parts.h"
+#include "sinew/backend/numbers.h"
+#include "sinew/program/kernels.h"
+
+namespace sinew::backend {
+namespace {
+
+// The last segment of an IRI.
+std::string short_name(const std::string& iri) {
+  const std::size_t at = iri.find_last_of("/#");
+  return at == std::string::npos ? iri : iri.substr(at + 1);
+}
+
+std::string describe(const program::Variable& v) {
+  std::string text = v.quantity;
+  if (!v.represents.empty()) text += " of " + short_name(v.represents);
+  if (!v.frame.empty()) text += ", seen from " + short_name(v.frame);
+  if (!v.unit.empty()) text += " [" + v.unit + "]";
+  return c_comment(text);
+}
+
+}  // namespace
+
+RenderedSource readable_source(const program::Program& program, const program::Interface& interface,
+                               const Fields& common) {
+  const std::vector<std::string> names = variable_identifiers(program);
+  const auto item = [&](std::uint32_t variable) {
+    const program::Variable& v = program.variables[variable];
+    Fields fields;
+    fields.text("identifier", names[variable]);
+    fields.number("size", v.size);
+    fields.text("comment", describe(v));
+    return fields;
+  };
+  const auto slot_items = [&](const std::vector<program::Slot>& slots) {
+    FieldList list;
+    for (const program::Slot& slot : slots) {
+      Fields fields = item(slot.variable);
+      fields.number("offset", slot.offset);
+      list.push_back(std::move(fields));
+    }
+    return list;
+  };
+
+  FieldList constants;
+  FieldList internals;
+  for (std::uint32_t i = 0; i < program.variables.size(); ++i) {
+    const program::Variable& v = program.variables[i];
+    if (v.role == program::Role::kInternal) internals.push_back(item(i));
+    if (v.role != program::Role::kConstant) continue;
+    Fields fields = item(i);
+    std::string values;
+    for (const double value : v.value) values += (values.empty() ? "" : ", ") + c_number(value);
+    fields.text("values", values);
+    constants.push_back(std::move(fields));
+  }
+
+  CodeBlock body;
+  std::string heading;
+  for (const std::uint32_t index : program.schedule) {
+    const program::Closure& closure = program.closures[index];
+    std::string next = c_comment(short_name(closure.step) + ": " + short_name(closure.about));
+    if (next != heading) {
+      if (!heading.empty()) body.add("");
+      body.add("  /* " + next + " */");
+      heading = std::move(next);
+    }
+    std::string call = "  " + program::support_function(closure.operation) + "(";
+    for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
+      call += (i > 0 ? ", " : "") + names[closure.arguments[i]];
+    }
+    body.add(call + ");", index);
+  }
+
+  Fields fields = common;
+  fields.list("constants", std::move(constants));
+  fields.list("internals", std::move(internals));
+  fields.list("inputs", slot_items(interface.inputs));
+  fields.list("outputs", slot_items(interface.outputs));
+  fields.list("states", slot_items(interface.states));
+  return render_with_body("c/readable.c.mustache", std::move(fields), body);
+}
+
+}  // namespace sinew::backend

@@ -1,0 +1,62 @@
+#include "sinew/backend/interpreter.h"
+
+#include <algorithm>
+
+#include "sinew/program/kernels.h"
+#include "sinew/program/validate.h"
+
+namespace sinew::backend {
+
+Interpreter::Interpreter(const program::Program& program) {
+  program::require_valid(program);
+  interface_ = program::interface_of(program);
+
+  std::vector<std::size_t> place(program.variables.size());
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    place[i] = total;
+    total += program.variables[i].size;
+  }
+  numbers_.resize(total, 0.0);
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const std::vector<double>& value = program.variables[i].value;
+    std::copy(value.begin(), value.end(), numbers_.begin() + static_cast<std::ptrdiff_t>(place[i]));
+  }
+
+  for (const std::uint32_t index : program.schedule) {
+    const program::Closure& closure = program.closures[index];
+    steps_.push_back({program::find_kernel(closure.operation)->evaluate, arguments_.size()});
+    for (const std::uint32_t variable : closure.arguments) {
+      arguments_.push_back(numbers_.data() + place[variable]);
+    }
+  }
+
+  const auto copies = [&](const std::vector<program::Slot>& slots) {
+    std::vector<Copy> result;
+    for (const program::Slot& slot : slots) {
+      result.push_back({slot.offset, place[slot.variable], program.variables[slot.variable].size});
+    }
+    return result;
+  };
+  inputs_ = copies(interface_.inputs);
+  outputs_ = copies(interface_.outputs);
+  states_ = copies(interface_.states);
+  for (const program::Slot& slot : interface_.states) {
+    const std::vector<double>& value = program.variables[slot.variable].value;
+    first_states_.insert(first_states_.end(), value.begin(), value.end());
+  }
+}
+
+void Interpreter::evaluate(const double* in, double* out) {
+  for (const Copy& c : inputs_) std::copy_n(in + c.offset, c.size, numbers_.data() + c.place);
+  for (const Step& step : steps_) step.evaluate(arguments_.data() + step.first_argument);
+  for (const Copy& c : outputs_) std::copy_n(numbers_.data() + c.place, c.size, out + c.offset);
+}
+
+void Interpreter::reset() {
+  for (const Copy& c : states_) {
+    std::copy_n(first_states_.data() + c.offset, c.size, numbers_.data() + c.place);
+  }
+}
+
+}  // namespace sinew::backend

@@ -1,0 +1,34 @@
+// Fills the templates of `templates/`, which hold no logic: names, sections and lists only.
+// Everything that depends on the program is decided here, in C++; how the result looks is decided
+// there.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace sinew::backend {
+
+struct Fields;
+using FieldList = std::vector<Fields>;
+
+// What a template's {{name}} stands for: a text, a section that is there or not, or a repeated
+// section.
+struct Fields {
+  std::map<std::string, std::variant<std::string, bool, FieldList>> values;
+
+  void text(const std::string& name, std::string value) { values[name] = std::move(value); }
+  void number(const std::string& name, std::size_t value) { values[name] = std::to_string(value); }
+  void section(const std::string& name, bool present) { values[name] = present; }
+  void list(const std::string& name, FieldList items) { values[name] = std::move(items); }
+};
+
+// The text of a template, for example "c/flat.c.mustache". Throws Error if there is none.
+std::string_view template_text(std::string_view path);
+
+// Throws Error if the template is malformed.
+std::string render(std::string_view path, const Fields& fields);
+
+}  // namespace sinew::backend

@@ -1,0 +1,70 @@
+#include <nlohmann/json.hpp>
+
+#include "sinew/backend/c_parts.h"
+
+namespace sinew::backend {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json slots(const program::Program& program, const std::vector<program::Slot>& slots) {
+  Json list = Json::array();
+  for (const program::Slot& slot : slots) {
+    const program::Variable& v = program.variables[slot.variable];
+    Json item = {{"name", v.name},         {"iri", v.represents}, {"offset", slot.offset},
+                 {"size", v.size},         {"unit", v.unit},      {"frame", v.frame},
+                 {"quantity", v.quantity}, {"data", v.iri}};
+    if (v.role == program::Role::kState) item["value"] = v.value;
+    list.push_back(std::move(item));
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string sidecar(const program::Program& program, const program::Interface& interface,
+                    const COptions& options, const program::OperationCount& operations,
+                    const std::vector<LineOrigin>& origins) {
+  Json constants = Json::array();
+  for (const program::Variable& v : program.variables) {
+    if (v.role != program::Role::kConstant) continue;
+    constants.push_back({{"name", v.name},
+                         {"iri", v.represents},
+                         {"unit", v.unit},
+                         {"frame", v.frame},
+                         {"value", v.value}});
+  }
+  Json closures = Json::array();
+  for (const program::Closure& c : program.closures) {
+    closures.push_back(
+        {{"operation", c.operation}, {"iri", c.iri}, {"step", c.step}, {"about", c.about}});
+  }
+  Json lines = Json::array();
+  for (const LineOrigin& origin : origins) {
+    lines.push_back(Json::array({origin.line, origin.closure}));
+  }
+  const Json document = {{"sinew-generated", 1},
+                         {"name", options.name},
+                         {"style", options.style == Style::kFlat ? "flat" : "readable"},
+                         {"source", options.source},
+                         {"algorithm", program.iri},
+                         {"in-size", interface.in_size},
+                         {"out-size", interface.out_size},
+                         {"state-size", interface.state_size},
+                         {"inputs", slots(program, interface.inputs)},
+                         {"outputs", slots(program, interface.outputs)},
+                         {"states", slots(program, interface.states)},
+                         {"constants", std::move(constants)},
+                         {"operations",
+                          {{"add", operations.add},
+                           {"multiply", operations.multiply},
+                           {"divide", operations.divide},
+                           {"sqrt", operations.sqrt},
+                           {"sincos", operations.sincos},
+                           {"select", operations.select}}},
+                         {"closures", std::move(closures)},
+                         {"lines", std::move(lines)}};
+  return document.dump() + "\n";
+}
+
+}  // namespace sinew::backend

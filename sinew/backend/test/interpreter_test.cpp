@@ -1,0 +1,71 @@
+#include "sinew/backend/interpreter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "serial_chain.h"
+
+namespace sinew {
+namespace {
+
+std::vector<double> random_inputs(std::size_t n, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1.5, 1.5);
+  std::vector<double> values(n);
+  for (double& value : values) value = uniform(generator);
+  return values;
+}
+
+TEST(Interpreter, AgreesWithDenseTextbookInverseDynamics) {
+  const auto joints = test::mixed_chain();
+  backend::Interpreter interpreter(test::inverse_dynamics(joints));
+  ASSERT_EQ(interpreter.in_size(), 21U);
+  ASSERT_EQ(interpreter.out_size(), 7U);
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    const std::vector<double> in = random_inputs(21, seed);
+    std::vector<double> out(7);
+    interpreter.evaluate(in.data(), out.data());
+    const std::vector<double> expected = test::dense_inverse_dynamics(
+        joints, {in.begin(), in.begin() + 7}, {in.begin() + 7, in.begin() + 14},
+        {in.begin() + 14, in.end()});
+    // Outputs are in the order of the program's variables: the last joint's force was made first.
+    for (std::size_t k = 0; k < 7; ++k) EXPECT_NEAR(out[6 - k], expected[k], 1e-11) << k;
+  }
+}
+
+TEST(Interpreter, CarriesStatesFromOneEvaluationToTheNext) {
+  program::Program sum;
+  sum.name = "sum";
+  const auto variable = [&](const std::string& name, program::Role role, std::vector<double> value,
+                            bool output) {
+    program::Variable v;
+    v.name = name;
+    v.size = 6;
+    v.role = role;
+    v.value = std::move(value);
+    v.output = output;
+    sum.variables.push_back(std::move(v));
+  };
+  variable("in", program::Role::kInput, {}, false);
+  variable("total", program::Role::kState, {1, 2, 3, 4, 5, 6}, true);
+  variable("sum", program::Role::kInternal, {}, false);
+  variable("zero", program::Role::kConstant, std::vector<double>(6, 0.0), false);
+  sum.closures = {{"accumulate-wrench", "", "", "", {1, 0, 2}},
+                  {"accumulate-wrench", "", "", "", {2, 3, 1}}};
+  sum.schedule = {0, 1};
+  backend::Interpreter interpreter(sum);
+  const std::vector<double> in(6, 10.0);
+  std::vector<double> out(6);
+  interpreter.evaluate(in.data(), out.data());
+  EXPECT_EQ(out, (std::vector<double>{11, 12, 13, 14, 15, 16}));
+  interpreter.evaluate(in.data(), out.data());
+  EXPECT_EQ(out, (std::vector<double>{21, 22, 23, 24, 25, 26}));
+  interpreter.reset();
+  interpreter.evaluate(in.data(), out.data());
+  EXPECT_EQ(out, (std::vector<double>{11, 12, 13, 14, 15, 16}));
+}
+
+}  // namespace
+}  // namespace sinew
