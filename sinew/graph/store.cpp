@@ -232,7 +232,9 @@ Transaction Store::begin() {
   const Writer& writer = data_->core->writer;
   const std::uint32_t alive = writer.records.membership_count - writer.dead_records();
   const std::uint32_t bearable = std::min(std::max(kWorthCompacting, alive), data_->quad_limit / 4);
-  if (writer.dead_records() > bearable && !MatchScope::matching()) {
+  const bool full = writer.records.membership_count == data_->quad_limit;
+  if ((writer.dead_records() > bearable || (full && writer.dead_records() > 0)) &&
+      !MatchScope::matching()) {
     const Version committed = data_->present.committed;
     install(*data_, copy_of(*data_, data_->terms, committed), committed);
   }
