@@ -28,6 +28,10 @@ bool equals_ignoring_case(std::string_view word, std::string_view upper) {
 bool is_quote(char c) { return c == '"' || c == '\''; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
+bool is_letter_or_digit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c);
+}
+
 class TurtleReader {
  public:
   TurtleReader(std::string_view text, bool graphs, const ReadOptions& options, graph::Terms& terms,
@@ -77,8 +81,10 @@ class TurtleReader {
   void at_directive() {
     const Position start = scanner_.position();
     scanner_.advance();
-    const Scanner::Name name = at_name() ? scanner_.name() : Scanner::Name{};
-    const std::string_view word = name.has_colon ? std::string_view{} : name.prefix;
+    // Not a name: in "@prefix:" the colon is the prefix that is declared.
+    const std::size_t begin = scanner_.offset();
+    while (is_letter_or_digit(scanner_.peek())) scanner_.advance();
+    const std::string_view word = scanner_.text().substr(begin, scanner_.offset() - begin);
     if (word == "prefix") {
       prefix_declaration();
     } else if (word == "base") {
