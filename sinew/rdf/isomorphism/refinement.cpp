@@ -218,7 +218,11 @@ void refine(const BlankStructure& structure, Partition& partition,
 }
 
 std::vector<Id> ordered_blanks(std::span<const graph::Quad> quads, const graph::Terms& terms) {
-  const BlankStructure structure(quads, terms);
+  // A quad that comes twice says no more than once.
+  std::vector<graph::Quad> distinct(quads.begin(), quads.end());
+  std::ranges::sort(distinct);
+  distinct.erase(std::ranges::unique(distinct).begin(), distinct.end());
+  const BlankStructure structure(distinct, terms);
   std::vector<std::uint32_t> nodes(structure.size());
   std::iota(nodes.begin(), nodes.end(), 0);
   Partition partition(static_cast<std::uint32_t>(nodes.size()));

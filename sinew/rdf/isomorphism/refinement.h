@@ -26,6 +26,7 @@ class BlankStructure {
   };
   using Row = std::array<Field, 4>;
 
+  // No quad may come twice.
   BlankStructure(std::span<const graph::Quad> quads, const graph::Terms& terms);
   // Two sets side by side, whose blank nodes are taken for different nodes even where they have the
   // same ids. The nodes of the first set are those below `left_size`.

@@ -155,6 +155,8 @@ class TurtleWriter {
       const std::size_t begin = out.size();
       node(out, id);
       if (out.find('\n', begin) != std::string::npos) return false;
+    } else if (id == nil_) {
+      out += "()";
     } else if (const auto elements = shape_.list(id)) {
       out += "( ";
       for (const Id element : *elements) {
