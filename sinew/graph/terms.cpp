@@ -129,10 +129,10 @@ std::uint32_t Terms::Data::find_text(std::uint32_t hash, TermKind kind, std::str
                                      std::uint32_t datatype, std::string_view language) const {
   return by_text.find(hash, [&](std::uint32_t id) {
     const TermEntry& entry = entries[id];
-    return entry.kind == kind && entry.size == text.size() && entry.link == datatype &&
+    return entry.kind == kind && entry.link == datatype && entry.size == text.size() &&
            entry.language_size == language.size() &&
-           std::memcmp(entry.text, text.data(), text.size()) == 0 &&
-           std::memcmp(entry.text + entry.size, language.data(), language.size()) == 0;
+           std::string_view(entry.text, entry.size) == text &&
+           std::string_view(entry.text + entry.size, entry.language_size) == language;
   });
 }
 

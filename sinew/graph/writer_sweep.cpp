@@ -1,0 +1,85 @@
+// Unlinking removed records, so that lists stay as short as what is alive in them.
+#include "sinew/graph/writer.h"
+
+namespace sinew::graph {
+
+void Writer::finish(Version oldest) {
+  for (const Change& change : log_) {
+    if (change.kind != Change::kRemove && change.kind != Change::kRemoveMark) continue;
+    ++dead_records_;
+    if (change.kind == Change::kRemoveMark) continue;
+    const std::uint32_t graph = records.memberships[change.membership].graph;
+    sweep_graph(records.graph(graph)->members, oldest);
+    Triple& triple = records.triples[change.record];
+    if (!change.last) {
+      if (change.membership % kTripleSweep == 0) sweep_triple(triple, oldest);
+      continue;
+    }
+    sweep(pair_posting(kListSP, triple.subject, triple.predicate), kListSP, oldest);
+    sweep(pair_posting(kListPO, triple.predicate, triple.object), kListPO, oldest);
+    sweep(pair_posting(kListOS, triple.object, triple.subject), kListOS, oldest);
+    sweep(node_posting(kListS, triple.subject), kListS, oldest);
+    sweep(node_posting(kListP, triple.predicate), kListP, oldest);
+    sweep(node_posting(kListO, triple.object), kListO, oldest);
+  }
+  log_.clear();
+  if (log_.capacity() > kLargeLog) log_.shrink_to_fit();
+}
+
+namespace {
+
+// Unlinks what no reader needs. Returns the number of records that were removed but must stay.
+template <typename Record, typename Next>
+std::uint32_t unlink(StableArray<Record>& array, std::uint32_t& head, std::uint32_t& tail,
+                     std::uint32_t& count, Version oldest, Next&& next) {
+  std::uint32_t kept = 0, last = 0, left = 0;
+  for (std::uint32_t at = head; at != 0;) {
+    const std::uint32_t following = next(array[at]);
+    if (array[at].removed <= oldest) {
+      store(last == 0 ? head : next(array[last]), following);
+    } else {
+      if (array[at].removed != kNever) ++kept;
+      last = at;
+      ++left;
+    }
+    at = following;
+  }
+  tail = last;
+  store(count, left);
+  return kept;
+}
+
+bool patient(Posting& posting) {
+  if (posting.patience == 0) return posting.count == 0;
+  --posting.patience;
+  return true;
+}
+
+}  // namespace
+
+void Writer::sweep(std::uint32_t number, List list, Version oldest) {
+  Posting& posting = records.postings[number];
+  if (patient(posting)) return;
+  const std::uint32_t kept =
+      unlink(records.triples, posting.head, posting.tail, posting.count, oldest,
+             [list](Triple& triple) -> std::uint32_t& { return triple.next[list]; });
+  posting.patience = posting.count + kept + kFirstPatience;
+  if (posting.count == 0 && list < kListOS) count_pair(list, number, -1);
+}
+
+void Writer::sweep_graph(std::uint32_t number, Version oldest) {
+  Posting& posting = records.postings[number];
+  if (patient(posting)) return;
+  const std::uint32_t kept =
+      unlink(records.memberships, posting.head, posting.tail, posting.count, oldest,
+             [](Membership& membership) -> std::uint32_t& { return membership.next_in_graph; });
+  posting.patience = posting.count + kept + kFirstPatience;
+}
+
+void Writer::sweep_triple(Triple& triple, Version oldest) {
+  std::uint32_t count = 0;
+  unlink(records.memberships, triple.first_membership, triple.last_membership, count, oldest,
+         [](Membership& membership) -> std::uint32_t& { return membership.next_of_triple; });
+}
+
+}  // namespace sinew::graph
