@@ -99,6 +99,12 @@ constexpr Row kRows[] = {
      "in.of = absolute-velocity.of; in.wrt = absolute-velocity.wrt; out.of = in.of; out.wrt = "
      "in.wrt",
      "al_B = R' al_A, a_B = R' (a_A + al_A x p + w_A x (w_A x p))"},
+    // Between two frames of a robot that is held still: no velocities, no relative motion.
+    {"transform-acceleration-twist-to-distal-at-rest",
+     SINEW_OWN "transform-acceleration-twist-to-distal-at-rest",
+     "pose:pose in:acceleration-twist -> out:acceleration-twist",
+     "in.at = pose.wrt; out.at = pose.of; out.of = in.of; out.wrt = in.wrt",
+     "al_B = R' al_A, a_B = R' (a_A + al_A x p)"},
     {"add-acceleration-twist", SINEW_GEOMETRY "AddAccelerationTwist",
      "in1:acceleration-twist in2:acceleration-twist -> composite:acceleration-twist",
      "in1.of = in2.wrt; composite.wrt = in1.wrt; composite.of = in2.of; in1.at = in2.at; "
@@ -124,6 +130,12 @@ constexpr Row kRows[] = {
      "acceleration-twist.of = rigid-body-inertia.of; wrench.of = rigid-body-inertia.of; "
      "acceleration-twist.wrt = velocity-twist.wrt",
      "n = I al + w x (I w) + h x a, f = m a + al x h + w x (w x h)"},
+    // The same for a body at rest.
+    {"acceleration-twist-to-wrench", SINEW_DYNAMICS "AccelerationTwistToWrenchWithRigidBodyInertia",
+     "rigid-body-inertia:rigid-body-inertia acceleration-twist:acceleration-twist -> wrench:wrench",
+     "acceleration-twist.at = rigid-body-inertia.at; wrench.at = rigid-body-inertia.at; "
+     "acceleration-twist.of = rigid-body-inertia.of; wrench.of = rigid-body-inertia.of",
+     "n = I al + h x a, f = m a + al x h"},
     {"transform-wrench-to-proximal", SINEW_DYNAMICS "TransformWrenchToProximal",
      "pose:pose from:wrench -> to:wrench", "from.at = pose.of; to.at = pose.wrt; to.of = from.of",
      "f_A = R f_B, n_A = R n_B + p x f_A"},

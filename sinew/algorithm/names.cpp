@@ -1,0 +1,57 @@
+#include "sinew/algorithm/names.h"
+
+namespace sinew::algorithm {
+namespace {
+
+constexpr std::string_view kRdf = "http://www.w3.org/1999/02/22-rdf-syntax-ns#";
+constexpr std::string_view kPublished = "https://comp-rob2b.github.io/metamodels/algorithm#";
+
+graph::Id join(graph::Terms& terms, std::string_view space, std::string_view name) {
+  return terms.iri(std::string(space) + std::string(name));
+}
+
+}  // namespace
+
+std::string_view to_string(Role role) {
+  constexpr std::array<std::string_view, kRoles> names = {"input", "constant", "internal", "state"};
+  return names[static_cast<std::size_t>(role)];
+}
+
+Names::Names(graph::Terms& terms) {
+  const auto rdf = [&](std::string_view name) { return join(terms, kRdf, name); };
+  const auto sa = [&](std::string_view name) { return join(terms, kAlgorithmNamespace, name); };
+  type = rdf("type");
+  first = rdf("first");
+  rest = rdf("rest");
+  nil = rdf("nil");
+  algorithm = sa("Algorithm");
+  data = sa("data");
+  closure = sa("closure");
+  schedule = sa("schedule");
+  data_block = sa("DataBlock");
+  quantity = sa("quantity");
+  slot = sa("slot");
+  name = sa("name");
+  index = sa("index");
+  represents = sa("represents");
+  role = sa("role");
+  output = sa("output");
+  size = sa("size");
+  step = sa("step");
+  about = sa("about");
+  for (std::size_t i = 0; i < kRoles; ++i) roles[i] = sa(to_string(static_cast<Role>(i)));
+  for (std::size_t i = 0; i < kAttributes; ++i)
+    symbols[i] = sa(to_string(static_cast<Attribute>(i)));
+  schedule_type = join(terms, kPublished, "Schedule");
+  trigger_chain = join(terms, kPublished, "trigger-chain");
+  value = join(terms, kTreeNamespace, "value");
+  unit = terms.iri("http://qudt.org/schema/qudt/unit");
+  true_literal = terms.boolean(true);
+}
+
+std::string_view short_name(std::string_view iri) {
+  const std::size_t at = iri.find_last_of("#/:");
+  return at == std::string_view::npos || at + 1 == iri.size() ? iri : iri.substr(at + 1);
+}
+
+}  // namespace sinew::algorithm

@@ -1,0 +1,73 @@
+#include "sinew/program/lower.h"
+
+#include "sinew/algorithm/read.h"
+#include "sinew/program/dead_closures.h"
+
+namespace sinew::program {
+namespace {
+
+using algorithm::Attribute;
+
+Role role_of(algorithm::Role role) {
+  switch (role) {
+    case algorithm::Role::kInput:
+      return Role::kInput;
+    case algorithm::Role::kConstant:
+      return Role::kConstant;
+    case algorithm::Role::kInternal:
+      return Role::kInternal;
+    case algorithm::Role::kState:
+      return Role::kState;
+  }
+  return Role::kInternal;
+}
+
+// Directions of a pose's coordinates are those of the frame that it is with respect to.
+graph::Id frame_of(const algorithm::Block& block) {
+  const graph::Id seen_by = block.symbols[static_cast<std::size_t>(Attribute::kSeenBy)];
+  return seen_by ? seen_by : block.symbols[static_cast<std::size_t>(Attribute::kWrt)];
+}
+
+std::string text(const graph::Terms& terms, graph::Id id) {
+  return id ? std::string(terms.text(id)) : std::string();
+}
+
+Variable variable_of(const graph::Terms& terms, const algorithm::Block& block) {
+  Variable variable;
+  variable.name = block.name;
+  variable.iri = text(terms, block.id);
+  variable.represents = text(terms, block.represents);
+  variable.quantity = block.quantity->name;
+  variable.unit = block.unit;
+  if (block.size > 1) variable.frame = text(terms, frame_of(block));
+  variable.role = role_of(block.role);
+  variable.output = block.output;
+  variable.size = block.size;
+  variable.value = block.value;
+  return variable;
+}
+
+}  // namespace
+
+Program lower(const graph::View& view, graph::Id algorithm, std::string_view name,
+              const graph::Places* places) {
+  const algorithm::Algorithm model = algorithm::read_checked(view, algorithm, places);
+  const graph::Terms& terms = view.terms();
+  Program program;
+  program.name = name;
+  program.iri = text(terms, algorithm);
+  program.variables.reserve(model.blocks.size());
+  for (const algorithm::Block& block : model.blocks)
+    program.variables.push_back(variable_of(terms, block));
+  program.closures.reserve(model.schedule.size());
+  for (const std::uint32_t scheduled : model.schedule) {
+    const algorithm::Closure& closure = model.closures[scheduled];
+    program.schedule.push_back(static_cast<std::uint32_t>(program.closures.size()));
+    program.closures.push_back({std::string(closure.op->name), text(terms, closure.id),
+                                text(terms, closure.step), text(terms, closure.about),
+                                closure.arguments});
+  }
+  return without_dead_closures(program);
+}
+
+}  // namespace sinew::program

@@ -1,0 +1,20 @@
+// From the algorithm model in the graph to a program: the graph becomes a tree, symbols become
+// indices, closures that nothing depends on are left out. The same model gives the same program,
+// byte for byte.
+#pragma once
+
+#include <string_view>
+
+#include "sinew/graph/places.h"
+#include "sinew/graph/store.h"
+#include "sinew/program/program.h"
+
+namespace sinew::program {
+
+// Reads and checks the algorithm (algorithm/check.h): whatever is wrong is thrown as one Error with
+// the IRIs of the closures and data blocks at fault. Variables come in this order: inputs, outputs,
+// then the others as the schedule meets them.
+Program lower(const graph::View& view, graph::Id algorithm, std::string_view name,
+              const graph::Places* places = nullptr);
+
+}  // namespace sinew::program

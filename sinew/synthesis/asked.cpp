@@ -1,0 +1,46 @@
+#include "sinew/synthesis/asked.h"
+
+#include <algorithm>
+
+namespace sinew::synthesis {
+namespace {
+
+constexpr AskedQuantity kAsked[] = {
+    {"pose", Element::kFrame, "frame-pose", "pose", false},
+    {"twist", Element::kFrame, "twist", "twist", false},
+    {"acceleration-twist", Element::kFrame, "acceleration-twist", "acceleration-twist", false},
+    {"joint-force", Element::kJoint, "force", "force", true},
+    {"bias-force", Element::kJoint, "bias-force", "bias-force", true},
+    {"gravity-force", Element::kJoint, "gravity-force", "gravity-force", true},
+};
+
+constexpr GivenQuantity kGiven[] = {
+    {"joint-position", Element::kJoint, "position"},
+    {"joint-velocity", Element::kJoint, "velocity"},
+    {"joint-acceleration", Element::kJoint, "acceleration"},
+    {"joint-force", Element::kJoint, "force"},
+    {"gravity", Element::kRobot, "base-acceleration"},
+};
+
+template <typename Rows>
+auto* find(const Rows& rows, std::string_view name) {
+  const auto* end = std::end(rows);
+  const auto* found =
+      std::find_if(std::begin(rows), end, [&](const auto& row) { return row.name == name; });
+  return found == end ? nullptr : found;
+}
+
+}  // namespace
+
+std::span<const AskedQuantity> asked_quantities() { return kAsked; }
+std::span<const GivenQuantity> given_quantities() { return kGiven; }
+const AskedQuantity* find_asked(std::string_view name) { return find(kAsked, name); }
+const GivenQuantity* find_given(std::string_view name) { return find(kGiven, name); }
+
+const GivenQuantity* find_given_for(std::string_view slot) {
+  for (const GivenQuantity& row : kGiven)
+    if (row.slot == slot) return &row;
+  return nullptr;
+}
+
+}  // namespace sinew::synthesis

@@ -1,0 +1,87 @@
+#include "sinew/synthesis/context.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "sinew/base/error.h"
+
+namespace sinew::synthesis {
+
+using algorithm::kNoIndex;
+
+std::string_view to_string(Direction direction) {
+  switch (direction) {
+    case Direction::kOutward:
+      return "outward";
+    case Direction::kInward:
+      return "inward";
+    case Direction::kLocal:
+      return "local";
+  }
+  return "";
+}
+
+Id Visit::operator[](std::string_view column) const {
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i] == column) return row[i];
+  throw std::logic_error(
+      fmt::format("a visitor asks for ?{}, which its query does not select", column));
+}
+
+void Blackboard::put(std::string_view slot, Id element, BlockIndex block) {
+  auto found = slots_.find(slot);
+  if (found == slots_.end()) {
+    names_.push_back(std::make_unique<std::string>(slot));
+    found = slots_.emplace(*names_.back(), std::unordered_map<Id, BlockIndex>{}).first;
+  }
+  found->second[element] = block;
+}
+
+BlockIndex Blackboard::find(std::string_view slot, Id element) const {
+  const auto found = slots_.find(slot);
+  if (found == slots_.end()) return kNoIndex;
+  const auto block = found->second.find(element);
+  return block == found->second.end() ? kNoIndex : block->second;
+}
+
+bool Context::has(std::string_view slot, Id element) const {
+  return board.find(slot, element) != kNoIndex;
+}
+
+BlockIndex Context::block(std::string_view slot, Id element) const {
+  const BlockIndex found = board.find(slot, element);
+  if (found == kNoIndex)
+    throw Error(Problem{{},
+                        std::string(view.terms().text(element)),
+                        fmt::format("step {} needs its {}, which no step before has made",
+                                    step ? step->name : "(none)", slot),
+                        "put the step that gives it into an earlier sweep, or before this one",
+                        {},
+                        {}});
+  return found;
+}
+
+BlockIndex Context::make(const algorithm::BlockSpec& spec) {
+  const BlockIndex made = builder.block(spec);
+  board.put(spec.slot, spec.represents, made);
+  return made;
+}
+
+void Context::closure(std::string_view operation, std::initializer_list<BlockIndex> arguments,
+                      Id about) {
+  const Id iri =
+      step ? builder.terms().iri(std::string(algorithm::kStepNamespace) + step->name) : Id{};
+  builder.closure(operation, arguments, {iri, about});
+}
+
+std::vector<double> Context::numbers(Id coordinate) const {
+  std::vector<double> result;
+  const algorithm::Names& names = builder.names();
+  for (Id node = view.object(coordinate, names.value); node && node != names.nil;
+       node = view.object(node, names.rest))
+    result.push_back(view.terms().number(view.object(node, names.first)).value());
+  return result;
+}
+
+}  // namespace sinew::synthesis

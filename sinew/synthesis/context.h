@@ -1,0 +1,63 @@
+// What the passes of a step work with: the model, the algorithm so far, and the blackboard on which
+// steps leave data blocks for each other.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "sinew/algorithm/builder.h"
+#include "sinew/graph/store.h"
+#include "sinew/synthesis/query.h"
+#include "sinew/synthesis/robot.h"
+#include "sinew/synthesis/step.h"
+
+namespace sinew::synthesis {
+
+using BlockIndex = std::uint32_t;
+
+// Which data block is in a slot of a model element at this moment of the synthesis. Most slots are
+// filled once; accumulations fill theirs again and again.
+class Blackboard {
+ public:
+  void put(std::string_view slot, Id element, BlockIndex block);
+  // algorithm::kNoIndex when the slot is empty.
+  BlockIndex find(std::string_view slot, Id element) const;
+
+ private:
+  std::unordered_map<std::string_view, std::unordered_map<Id, BlockIndex>> slots_;
+  std::vector<std::unique_ptr<std::string>> names_;
+};
+
+struct Context {
+  graph::Store& store;
+  graph::View view;  // of the model, and of the algorithm while it grows
+  algorithm::Builder& builder;
+  const Robot& robot;
+  const Query& query;
+  Id reference;  // the body with respect to which absolute motions are: the root, or free fall
+  std::array<double, 3> gravity = {};  // [m/s^2], seen from the root; zero when it does not matter
+  // The body frames that matter, where only the way to some tips does; empty: all.
+  std::unordered_set<Id> scope = {};
+  Blackboard board = {};
+  const Step* step = nullptr;  // whose pass is running
+
+  // The block in a slot; Error naming the step, slot and element when it is empty.
+  BlockIndex block(std::string_view slot, Id element) const;
+  bool has(std::string_view slot, Id element) const;
+
+  // Makes a block and puts it in its slot.
+  BlockIndex make(const algorithm::BlockSpec& spec);
+  // Makes a closure for a model element, in the name of the running step.
+  void closure(std::string_view operation, std::initializer_list<BlockIndex> arguments, Id about);
+
+  // The numbers of a coordinate of the normalised tree.
+  std::vector<double> numbers(Id coordinate) const;
+};
+
+}  // namespace sinew::synthesis

@@ -1,0 +1,23 @@
+#include "sinew/synthesis/query.h"
+
+#include <fmt/format.h>
+
+namespace sinew::synthesis {
+
+std::string canonical_text(const Query& query) {
+  std::string text = query.name + " asks";
+  for (const Asked& asked : query.asked)
+    text += fmt::format(" {}({};{})", asked.quantity, asked.of, asked.seen_by);
+  text += " given";
+  for (const Given& given : query.given) text += fmt::format(" {}({})", given.quantity, given.of);
+  text += " base " + query.base + " tips";
+  for (const std::string& tip : query.tips) text += " " + tip;
+  if (query.gravity)
+    text += fmt::format(" gravity {} {} {}", (*query.gravity)[0], (*query.gravity)[1],
+                        (*query.gravity)[2]);
+  if (query.floating) text += " floating";
+  if (!query.sweeps.empty()) text += " sweeps " + query.sweeps;
+  return text;
+}
+
+}  // namespace sinew::synthesis

@@ -1,0 +1,154 @@
+#include "sinew/synthesis/robot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "sinew/algorithm/names.h"
+#include "sinew/base/error.h"
+#include "sinew/rdf/sparql/prepared.h"
+
+namespace sinew::synthesis {
+namespace {
+
+using algorithm::short_name;
+using graph::View;
+using Row = std::vector<Id>;
+
+constexpr std::string_view kPrefixes =
+    "PREFIX tree: <https://w3id.org/sinew/kinematic-tree#>\n"
+    "PREFIX geom: <https://comp-rob2b.github.io/metamodels/geometry/structural-entities#>\n"
+    "PREFIX kc: <https://comp-rob2b.github.io/metamodels/kinematic-chain/structural-entities#>\n";
+
+std::vector<Row> select(graph::Store& store, const View& view, std::string_view text) {
+  std::vector<Row> rows;
+  const auto query = rdf::sparql::prepare(store, std::string(kPrefixes) + std::string(text));
+  query->select(view, {}, [&](std::span<const Id> row) {
+    rows.emplace_back(row.begin(), row.end());
+    return true;
+  });
+  return rows;
+}
+
+std::string text(const View& view, Id id) { return std::string(view.terms().text(id)); }
+
+Error fault(std::string iri, std::string what, std::string remedy) {
+  return Error(Problem{{}, std::move(iri), std::move(what), std::move(remedy), {}, {}});
+}
+
+void read_root(graph::Store& store, const View& view, Robot& robot) {
+  const auto roots = select(store, view, R"(
+    SELECT ?body ?frame WHERE { ?body a tree:Root ; tree:frame ?frame })");
+  if (roots.empty())
+    throw fault("", "there is no normalised kinematic tree", "normalise the model first");
+  if (roots.size() > 1) {
+    std::string list;
+    for (const Row& row : roots) list += (list.empty() ? "" : ", ") + text(view, row[0]);
+    throw fault(text(view, roots[0][0]), "more than one root: " + list, "choose one as the base");
+  }
+  robot.root_body = roots[0][0];
+  robot.root_frame = roots[0][1];
+  const Id property =
+      view.terms().find_iri("https://w3id.org/sinew/kinematic-tree#base-acceleration");
+  if (property) robot.base_acceleration = view.object(robot.root_frame, property);
+}
+
+}  // namespace
+
+Robot read_robot(graph::Store& store, const View& view) {
+  Robot robot;
+  read_root(store, view, robot);
+  std::vector<Row> rows = select(store, view, R"(
+    SELECT ?index ?joint ?kind ?joint_frame ?frame ?predecessor ?successor ?parent WHERE {
+      ?joint tree:index ?index ; a ?kind ; tree:joint-frame ?joint_frame ;
+             tree:successor-frame ?frame ; tree:predecessor-frame ?parent .
+      VALUES ?kind { tree:Revolute tree:Prismatic tree:Floating }
+      ?predecessor tree:frame ?parent .
+      ?successor tree:frame ?frame .
+    })");
+  const auto index = [&](const Row& row) { return view.terms().integer_value(row[0]).value_or(0); };
+  std::sort(rows.begin(), rows.end(),
+            [&](const Row& a, const Row& b) { return index(a) < index(b); });
+  for (const Row& row : rows) {
+    std::string kind(short_name(view.terms().text(row[2])));
+    kind.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(kind.front())));
+    robot.joints.push_back({row[1], kind, row[3], row[4], row[5], row[6], row[7]});
+  }
+  return robot;
+}
+
+std::vector<std::size_t> path_to(const Robot& robot, const View& view, Id frame) {
+  std::vector<std::size_t> path;
+  Id at = body_frame(view, frame);
+  while (at != robot.root_frame) {
+    const auto joint = std::find_if(robot.joints.begin(), robot.joints.end(),
+                                    [&](const RobotJoint& one) { return one.frame == at; });
+    if (joint == robot.joints.end())
+      throw fault(text(view, frame),
+                  "no path leads to it from the base " + text(view, robot.root_frame),
+                  "choose a base and a tip of the same chain");
+    path.push_back(static_cast<std::size_t>(joint - robot.joints.begin()));
+    at = joint->parent_frame;
+  }
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+std::vector<Id> leaf_frames(graph::Store& store, const View& view, const Robot& robot) {
+  // A link to which one joint is attached; the body's own IRI is that of its first link.
+  const auto rows = select(store, view, R"(
+    SELECT ?link ?frame ?body WHERE {
+      ?body tree:contains ?link .
+      ?link tree:root-frame ?frame .
+      FILTER NOT EXISTS {
+        ?link geom:simplices ?one, ?other .
+        ?a kc:between-attachments ?one .
+        ?b kc:between-attachments ?other .
+        FILTER (?a != ?b)
+      }
+    })");
+  std::vector<Id> frames;
+  for (const Row& row : rows)
+    if (row[0] != robot.root_body) frames.push_back(row[1]);
+  return frames;
+}
+
+Id find_frame(graph::Store& store, const View& view, std::string_view name) {
+  const auto rows = select(store, view, R"(
+    SELECT ?frame ?link WHERE {
+      { ?body tree:frame ?frame } UNION { ?frame tree:fixed-to ?other }
+      OPTIONAL { ?link tree:root-frame ?frame }
+    })");
+  std::vector<Id> exact, by_name, by_link;
+  const auto note = [](std::vector<Id>& list, Id frame) {
+    if (std::find(list.begin(), list.end(), frame) == list.end()) list.push_back(frame);
+  };
+  for (const Row& row : rows) {
+    const std::string_view frame = view.terms().text(row[0]);
+    const std::string_view link = row[1] ? view.terms().text(row[1]) : std::string_view{};
+    if (frame == name || link == name) note(exact, row[0]);
+    if (short_name(frame) == name) note(by_name, row[0]);
+    if (short_name(link) == name && row[1]) note(by_link, row[0]);
+  }
+  for (const std::vector<Id>* list : {&exact, &by_name, &by_link}) {
+    if (list->size() == 1) return list->front();
+    if (list->empty()) continue;
+    std::string all;
+    for (const Id one : *list) all += (all.empty() ? "" : ", ") + text(view, one);
+    throw fault(std::string(name), "several frames have this name: " + all, "use the whole IRI");
+  }
+  std::string some;
+  for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 8); ++i)
+    some += (i ? ", " : "") + std::string(short_name(view.terms().text(rows[i][0])));
+  throw fault(std::string(name), "no frame or link of the tree has this name",
+              fmt::format("one of {}{}", some, rows.size() > 8 ? ", ..." : ""));
+}
+
+Id body_frame(const View& view, Id frame) {
+  const Id property = view.terms().find_iri("https://w3id.org/sinew/kinematic-tree#fixed-to");
+  const Id body = property ? view.object(frame, property) : Id{};
+  return body ? body : frame;
+}
+
+}  // namespace sinew::synthesis

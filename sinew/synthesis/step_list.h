@@ -1,0 +1,32 @@
+// Makers of the steps, one for each row of the list in steps.cpp.
+#pragma once
+
+#include "sinew/synthesis/motion.h"
+#include "sinew/synthesis/step.h"
+
+namespace sinew::synthesis {
+
+// steps_position.cpp
+Step joint_pose_step();
+Step pose_step();
+
+// steps_velocity.cpp
+Step joint_velocity_step();
+Step velocity_step();
+
+// steps_acceleration.cpp
+Step joint_acceleration_step();
+Step acceleration_step(Motion motion);
+
+// steps_force.cpp
+Step inertia_step();
+Step own_wrench_step(Motion motion);
+Step wrench_step(Motion motion);
+Step joint_force_step(Motion motion);
+
+// steps_frames.cpp: of the frames that are asked for
+Step frame_pose_step();
+Step frame_twist_step();
+Step frame_acceleration_step();
+
+}  // namespace sinew::synthesis

@@ -1,0 +1,38 @@
+#include "sinew/synthesis/step_list.h"
+
+namespace sinew::synthesis {
+
+const std::vector<Step>& steps() {
+  static const std::vector<Step> list = {
+      joint_pose_step(),
+      pose_step(),
+      frame_pose_step(),
+      joint_velocity_step(),
+      velocity_step(),
+      frame_twist_step(),
+      joint_acceleration_step(),
+      acceleration_step(Motion::kFull),
+      acceleration_step(Motion::kBias),
+      acceleration_step(Motion::kRest),
+      frame_acceleration_step(),
+      inertia_step(),
+      own_wrench_step(Motion::kFull),
+      own_wrench_step(Motion::kBias),
+      own_wrench_step(Motion::kRest),
+      wrench_step(Motion::kFull),
+      wrench_step(Motion::kBias),
+      wrench_step(Motion::kRest),
+      joint_force_step(Motion::kFull),
+      joint_force_step(Motion::kBias),
+      joint_force_step(Motion::kRest),
+  };
+  return list;
+}
+
+const Step* find_step(std::string_view name) {
+  for (const Step& step : steps())
+    if (step.name == name) return &step;
+  return nullptr;
+}
+
+}  // namespace sinew::synthesis

@@ -1,0 +1,140 @@
+// Acceleration twists, classical, each body's absolute and seen from the body's own frame. Gravity
+// is an acceleration of the root: all is seen from an observer in free fall.
+#include "sinew/synthesis/joint_edge.h"
+#include "sinew/synthesis/motion.h"
+#include "sinew/synthesis/step_list.h"
+
+namespace sinew::synthesis {
+namespace {
+
+using algorithm::Role;
+
+constexpr double kZero[6] = {};
+
+void configure_relative(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  context.make({.slot = "relative-acceleration",
+                .represents = edge.joint,
+                .quantity = "acceleration-twist",
+                .of = edge.successor,
+                .wrt = edge.predecessor,
+                .reference = edge.child,
+                .seen_by = edge.child});
+}
+
+void compute_relative(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  context.closure("acceleration-to-twist-" + edge.kind,
+                  {context.block("acceleration", edge.joint),
+                   context.block("relative-acceleration", edge.joint)},
+                  edge.joint);
+}
+
+void configure_root(Motion motion, Context& context, const Visit& visit) {
+  const std::string slot = slot_of(motion, "body-acceleration");
+  if (context.has("base-acceleration", visit.node)) {
+    context.board.put(slot, visit.node, context.block("base-acceleration", visit.node));
+    return;
+  }
+  context.make({.slot = slot,
+                .represents = visit.node,
+                .quantity = "acceleration-twist",
+                .of = visit["body"],
+                .wrt = context.reference,
+                .reference = visit.node,
+                .seen_by = visit.node,
+                .role = Role::kConstant,
+                .value = kZero});
+}
+
+void configure_body(Motion motion, Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  const auto acceleration = [&](std::string_view slot, Id represents, Id of, Id frame) {
+    context.make({.slot = slot_of(motion, slot),
+                  .represents = represents,
+                  .quantity = "acceleration-twist",
+                  .of = of,
+                  .wrt = context.reference,
+                  .reference = frame,
+                  .seen_by = frame});
+  };
+  acceleration("acceleration-at-joint", edge.joint, edge.predecessor, edge.joint_frame);
+  acceleration("acceleration-across-joint", edge.joint, edge.predecessor, edge.child);
+  acceleration("body-acceleration", edge.child, edge.successor, edge.child);
+  if (motion == Motion::kFull) return;
+  context.make({.slot = "no-relative-acceleration",
+                .represents = edge.joint,
+                .quantity = "acceleration-twist",
+                .of = edge.successor,
+                .wrt = edge.predecessor,
+                .reference = edge.child,
+                .seen_by = edge.child,
+                .role = Role::kConstant,
+                .value = kZero});
+}
+
+void compute_body(Motion motion, Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  const BlockIndex from = context.block(slot_of(motion, "body-acceleration"), edge.parent);
+  const BlockIndex at = context.block(slot_of(motion, "acceleration-at-joint"), edge.joint);
+  const BlockIndex across = context.block(slot_of(motion, "acceleration-across-joint"), edge.joint);
+  const BlockIndex placement = context.block("placement", edge.joint);
+  const BlockIndex pose = context.block("pose-across-joint", edge.joint);
+  if (motion == Motion::kRest) {
+    context.closure("transform-acceleration-twist-to-distal-at-rest", {placement, from, at},
+                    edge.joint);
+    context.closure("transform-acceleration-twist-to-distal-at-rest", {pose, at, across},
+                    edge.joint);
+  } else {
+    context.closure("transform-acceleration-twist-to-distal-fixed",
+                    {placement, context.block("body-twist", edge.parent), from, at}, edge.joint);
+    context.closure("transform-acceleration-twist-to-distal",
+                    {pose, context.block("twist-at-joint", edge.joint),
+                     context.block("relative-twist", edge.joint), at, across},
+                    edge.joint);
+  }
+  const BlockIndex relative = context.block(
+      motion == Motion::kFull ? "relative-acceleration" : "no-relative-acceleration", edge.joint);
+  context.closure(
+      "add-acceleration-twist",
+      {across, relative, context.block(slot_of(motion, "body-acceleration"), edge.child)},
+      edge.child);
+}
+
+}  // namespace
+
+Step joint_acceleration_step() {
+  return {.name = "joint-acceleration",
+          .purpose = "the relative acceleration across each joint follows from the joint's",
+          .direction = Direction::kOutward,
+          .expansion = std::string(kAcrossJoints),
+          .needs = {"acceleration"},
+          .may_use = {"relative-twist"},
+          .gives = {"relative-acceleration"},
+          .visitors = {{Where::kEdge, {}, {}, configure_relative, compute_relative}}};
+}
+
+Step acceleration_step(Motion motion) {
+  std::vector<std::string> needs = {"placement", "pose-across-joint"};
+  if (motion != Motion::kRest) needs.insert(needs.end(), {"body-twist", "relative-twist"});
+  if (motion == Motion::kFull) needs.push_back("relative-acceleration");
+  return {.name = slot_of(motion, "body-acceleration"),
+          .purpose = "accelerations add up from the root outward" + phrase_of(motion),
+          .direction = Direction::kOutward,
+          .expansion = std::string(kAcrossJoints),
+          .needs = needs,
+          .may_use = {"base-acceleration"},
+          .gives = {slot_of(motion, "body-acceleration")},
+          .visitors = {{Where::kNode,
+                        {std::string(kIsRoot)},
+                        std::string(kBodyOfNode),
+                        std::bind_front(configure_root, motion),
+                        {}},
+                       {Where::kEdge,
+                        {},
+                        {},
+                        std::bind_front(configure_body, motion),
+                        std::bind_front(compute_body, motion)}}};
+}
+
+}  // namespace sinew::synthesis

@@ -1,0 +1,200 @@
+#include "sinew/synthesis/synthesise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sinew/base/error.h"
+#include "sinew/synthesis/asked.h"
+#include "sinew/synthesis/context.h"
+#include "sinew/synthesis/drivers.h"
+#include "sinew/synthesis/plan.h"
+
+namespace sinew::synthesis {
+namespace {
+
+using algorithm::kAlgorithmNamespace;
+
+// One thing that is asked: the row of the table and the element.
+struct Wanted {
+  const AskedQuantity* quantity;
+  Id element;
+};
+
+struct Resolved {
+  std::vector<Wanted> wanted;
+  std::vector<Wish> wishes;
+  bool dynamic = false;
+};
+
+std::string text(const graph::View& view, Id id) { return std::string(view.terms().text(id)); }
+
+const RobotJoint& find_joint(const graph::View& view, const Robot& robot, std::string_view name) {
+  for (const RobotJoint& joint : robot.joints) {
+    const std::string_view iri = view.terms().text(joint.joint);
+    if (iri == name || algorithm::short_name(iri) == name) return joint;
+  }
+  std::string known;
+  for (const RobotJoint& joint : robot.joints)
+    known += (known.empty() ? "" : ", ") +
+             std::string(algorithm::short_name(view.terms().text(joint.joint)));
+  throw Error(
+      Problem{{}, std::string(name), "no moving joint has this name", "one of " + known, {}, {}});
+}
+
+std::vector<Id> tips(graph::Store& store, const graph::View& view, const Robot& robot,
+                     const Query& query) {
+  if (query.tips.empty()) return leaf_frames(store, view, robot);
+  std::vector<Id> frames;
+  for (const std::string& name : query.tips) {
+    const Id frame = find_frame(store, view, name);
+    path_to(robot, view, frame);  // refuses a tip that the base does not reach
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+// The elements that a question is about, in the order of the outputs.
+std::vector<Id> elements(graph::Store& store, const graph::View& view, const Robot& robot,
+                         const Query& query, const Asked& asked, Element kind) {
+  std::vector<Id> found;
+  switch (kind) {
+    case Element::kRobot:
+      return {robot.root_body};
+    case Element::kFrame:
+      if (asked.of.empty() || asked.of == kEveryTip) return tips(store, view, robot, query);
+      found.push_back(find_frame(store, view, asked.of));
+      path_to(robot, view, found.back());
+      return found;
+    case Element::kJoint:
+      if (!asked.of.empty() && asked.of != kEveryJoint)
+        return {find_joint(view, robot, asked.of).joint};
+      for (const RobotJoint& joint : robot.joints) found.push_back(joint.joint);
+      return found;
+  }
+  return found;
+}
+
+Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robot,
+                 const Query& query, Report& report) {
+  Resolved resolved;
+  if (query.asked.empty())
+    report.error({}, query.name, "the query asks for nothing", "state what is asked");
+  for (const Asked& asked : query.asked) {
+    const AskedQuantity* row = find_asked(asked.quantity);
+    if (row == nullptr) {
+      std::string known;
+      for (const AskedQuantity& one : asked_quantities())
+        known += (known.empty() ? "" : ", ") + std::string(one.name);
+      report.error({}, query.name, fmt::format("nothing is known of {}", asked.quantity),
+                   "ask for one of " + known);
+      continue;
+    }
+    resolved.dynamic |= row->dynamic;
+    resolved.wishes.push_back({std::string(row->needs), asked.quantity});
+    try {
+      for (const Id element : elements(store, view, robot, query, asked, row->element))
+        resolved.wanted.push_back({row, element});
+    } catch (const Error& error) {
+      for (const Problem& problem : error.problems()) report.add(problem);
+    }
+  }
+  return resolved;
+}
+
+void check_base(graph::Store& store, const graph::View& view, const Robot& robot,
+                const Query& query) {
+  if (query.base.empty()) return;
+  const Id frame = find_frame(store, view, query.base);
+  if (body_frame(view, frame) == robot.root_frame) return;
+  throw Error(Problem{{},
+                      query.base,
+                      "it is not the base of the tree, which is " + text(view, robot.root_body),
+                      "normalise the model from this base",
+                      {},
+                      {}});
+}
+
+// The gravity vector seen from the root: the query's, else the model's.
+std::array<double, 3> gravity(const Context& context, std::vector<std::string>& notes) {
+  if (context.query.gravity) return *context.query.gravity;
+  if (context.robot.base_acceleration) {
+    const std::vector<double> a = context.numbers(context.robot.base_acceleration);
+    return {-a.at(3), -a.at(4), -a.at(5)};
+  }
+  notes.push_back("no gravity in the model and none in the query: it is zero");
+  return {0, 0, 0};
+}
+
+// What the expansion queries and conditions see of the question.
+void write_asks(graph::Store& store, graph::Transaction& transaction, Id algorithm,
+                const Resolved& resolved) {
+  graph::Terms& terms = store.terms();
+  const auto sa = [&](std::string_view name) {
+    return terms.iri(std::string(kAlgorithmNamespace) + std::string(name));
+  };
+  for (const Wanted& wanted : resolved.wanted) {
+    transaction.add({algorithm, sa("asks"), wanted.element, algorithm});
+    transaction.add(
+        {algorithm, sa("asks-" + std::string(wanted.quantity->name)), wanted.element, algorithm});
+  }
+}
+
+void set_scope(Context& context, const Resolved& resolved) {
+  if (resolved.dynamic) return;
+  for (const Wanted& wanted : resolved.wanted)
+    for (const std::size_t joint : path_to(context.robot, context.view, wanted.element))
+      context.scope.insert(context.robot.joints[joint].frame);
+}
+
+void hand_out(Context& context, const Resolved& resolved) {
+  for (const Wanted& wanted : resolved.wanted)
+    context.builder.output(context.block(wanted.quantity->slot, wanted.element));
+}
+
+}  // namespace
+
+Synthesis synthesise(graph::Store& store, const Query& query) {
+  graph::Transaction transaction = store.begin();
+  const graph::View view = transaction.view();
+  const Robot robot = read_robot(store, view);
+  check_base(store, view, robot, query);
+
+  Report report;
+  const Resolved resolved = resolve(store, view, robot, query, report);
+  const std::vector<std::string> given = given_slots(query);
+  const Plan plan = make_plan(steps(), resolved.wishes, given, report);
+  report.throw_if_errors();
+
+  graph::Terms& terms = store.terms();
+  Synthesis result;
+  result.algorithm = terms.derived(terms.iri(std::string(kAlgorithmNamespace) + "Algorithm"),
+                                   {robot.root_frame, terms.literal(canonical_text(query))});
+  transaction.clear(result.algorithm);
+  algorithm::Builder builder(store, transaction, result.algorithm);
+  const bool falls = std::find(given.begin(), given.end(), "base-acceleration") != given.end();
+  Context context{
+      .store = store,
+      .view = view,
+      .builder = builder,
+      .robot = robot,
+      .query = query,
+      .reference =
+          falls ? terms.derived(terms.iri(std::string(algorithm::kTreeNamespace) + "FreeFall"),
+                                {robot.root_body})
+                : robot.root_body};
+  if (falls) context.gravity = gravity(context, result.notes);
+  write_asks(store, transaction, result.algorithm, resolved);
+  set_scope(context, resolved);
+  make_drivers(context, report);
+  report.throw_if_errors();
+
+  result.counts = run_sweeps(context, plan.sweeps);
+  hand_out(context, resolved);
+  builder.finish();
+  transaction.commit();
+  result.why = plan.why;
+  return result;
+}
+
+}  // namespace sinew::synthesis

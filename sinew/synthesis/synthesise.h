@@ -1,0 +1,25 @@
+// From a normalised tree and a query to an algorithm model in its own named graph.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sinew/graph/store.h"
+#include "sinew/synthesis/query.h"
+#include "sinew/synthesis/sweep.h"
+
+namespace sinew::synthesis {
+
+struct Synthesis {
+  graph::Id algorithm;             // the algorithm's node, and the name of its graph
+  std::vector<std::string> why;    // a line for each step, in the order of the sweeps
+  std::vector<std::string> notes;  // what a user should know: no gravity stated, ...
+  TraversalCounts counts;
+};
+
+// Writes the algorithm in one transaction: all of it or, when Error is thrown, nothing. The same
+// model and query give the same nodes; an algorithm of the same query that is there already is
+// replaced. A query that cannot be answered is refused with all that is missing and how to give it.
+Synthesis synthesise(graph::Store& store, const Query& query);
+
+}  // namespace sinew::synthesis
