@@ -45,7 +45,7 @@ void rebuild_index(ObjectData& object, Arena& arena) {
   for (std::uint32_t i = 0; i < object.size; ++i) insert_into_index(object, i);
 }
 
-std::uint32_t find_member(const ObjectData& object, std::string_view key) {
+std::uint32_t position_of(const ObjectData& object, std::string_view key) {
   if (object.index == nullptr) {
     for (std::uint32_t i = 0; i < object.size; ++i) {
       if (object.members[i].name() == key) return i;
@@ -166,11 +166,16 @@ std::span<Member> Value::members() {
   return {object_of(data_).members, object_of(data_).size};
 }
 
-const Value* Value::find(std::string_view key) const {
+const Member* Value::find_member(std::string_view key) const {
   if (!is_object()) return nullptr;
   const ObjectData& object = object_of(data_);
-  const std::uint32_t member = find_member(object, key);
-  return member == kNotFound ? nullptr : &object.members[member].value;
+  const std::uint32_t member = position_of(object, key);
+  return member == kNotFound ? nullptr : &object.members[member];
+}
+
+const Value* Value::find(std::string_view key) const {
+  const Member* member = find_member(key);
+  return member == nullptr ? nullptr : &member->value;
 }
 
 Value* Value::find(std::string_view key) {
@@ -201,7 +206,7 @@ Value* Value::add(Arena& arena, Value key, Value value) {
 
 void Value::erase(std::string_view key) {
   ObjectData& object = object_of(data_);
-  const std::uint32_t member = find_member(object, key);
+  const std::uint32_t member = position_of(object, key);
   if (member == kNotFound) return;
   std::copy(object.members + member + 1, object.members + object.size, object.members + member);
   --object.size;

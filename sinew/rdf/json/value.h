@@ -62,6 +62,7 @@ class Value {
   std::span<Member> members();
   const Value* find(std::string_view key) const;  // nullptr when there is no such member
   Value* find(std::string_view key);
+  const Member* find_member(std::string_view key) const;
   // Adds a member, or replaces the value of the one with that key. Returns the member's value.
   Value* set(Arena& arena, Value key, Value value);
   // Adds a member that is known to be new.
