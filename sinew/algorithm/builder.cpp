@@ -43,20 +43,18 @@ std::string Builder::unique_name(std::string_view slot, Id element) {
   name += short_name(terms_.text(element));
   // Elements of different namespaces may share their last segment.
   const std::uint32_t use = ++name_uses_[name];
-  return use == 1 ? name : unique_name(name + "-" + std::to_string(use), element);
+  return use == 1 ? name : name + "-" + std::to_string(use);
 }
 
 std::uint32_t Builder::block(const BlockSpec& spec) {
-  const Id slot = terms_.literal(spec.slot);
-  const auto [place, fresh] = by_slot_.try_emplace(
-      Key{slot, spec.represents}, static_cast<std::uint32_t>(algorithm_.blocks.size()));
-  if (!fresh) return place->second;
+  const Key key{terms_.literal(spec.slot), spec.represents};
+  if (const auto found = by_slot_.find(key); found != by_slot_.end()) return found->second;
   const Quantity* quantity = find_quantity(spec.quantity);
   if (quantity == nullptr)
     throw std::logic_error("no quantity is named " + std::string(spec.quantity));
 
-  Block& block = algorithm_.blocks.emplace_back();
-  block.id = terms_.derived(names_.data_block, {algorithm_.id, slot, spec.represents});
+  Block block;
+  block.id = terms_.derived(names_.data_block, {algorithm_.id, key.slot, spec.represents});
   block.slot = spec.slot;
   block.name = unique_name(spec.slot, spec.represents);
   block.quantity = quantity;
@@ -72,8 +70,12 @@ std::uint32_t Builder::block(const BlockSpec& spec) {
   Report report;
   check_block(terms_, block, report);
   report.throw_if_errors();
-  write(block, slot);
-  return place->second;
+
+  const auto index = static_cast<std::uint32_t>(algorithm_.blocks.size());
+  by_slot_.emplace(key, index);
+  write(block, key.slot);
+  algorithm_.blocks.push_back(std::move(block));
+  return index;
 }
 
 void Builder::write(const Block& block, Id slot) {

@@ -49,9 +49,8 @@ TEST(Operators, TieEverySymbolOfTheirOutputToAnInput) {
       bool tied =
           quantity.name == "joint-force";  // an output of the joint's own, named by the builder
       for (const FrameRule& rule : op.rules)
-        tied |=
-            ((rule.left.port == out && rule.left.attribute == attribute) ||
-                                    (rule.right.port == out && rule.right.attribute == attribute));
+        tied |= ((rule.left.port == out && rule.left.attribute == attribute) ||
+                 (rule.right.port == out && rule.right.attribute == attribute));
       EXPECT_TRUE(tied) << op.name << ": " << to_string(attribute) << " of its output";
     }
   }
