@@ -19,14 +19,14 @@ class LineReader {
   void read(bool graphs, Id unnamed_graph, const QuadSink& sink) {
     while (true) {
       do scanner_.skip_blanks();
-      while (scanner_.skip_line_ends());
+      while (scanner_.accept_line_end());
       if (scanner_.peek() != '#') {
         if (scanner_.at_end()) return;
         statement(graphs, unnamed_graph, sink);
         scanner_.skip_blanks();
       }
       scanner_.skip_comment();
-      if (!scanner_.at_end() && !scanner_.skip_line_ends()) {
+      if (!scanner_.at_end() && !scanner_.accept_line_end()) {
         scanner_.fail(fmt::format("there is {} behind a statement", scanner_.describe_next()),
                       "begin the next statement on a line of its own");
       }

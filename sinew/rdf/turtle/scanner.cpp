@@ -119,10 +119,15 @@ void Scanner::skip_blanks() {
   while (peek() == ' ' || peek() == '\t') ++offset_;
 }
 
-bool Scanner::skip_line_ends() {
-  const std::size_t begin = offset_;
-  while (peek() == '\n' || peek() == '\r') count_line_end();
-  return offset_ > begin;
+bool Scanner::accept_line_end() {
+  if (peek() == '\r') {
+    count_line_end();
+    if (peek() == '\n') count_line_end();
+    return true;
+  }
+  if (peek() != '\n') return false;
+  count_line_end();
+  return true;
 }
 
 void Scanner::skip_comment() {

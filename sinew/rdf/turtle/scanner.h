@@ -38,11 +38,10 @@ class Scanner {
   void advance(std::size_t count = 1) { offset_ += count; }
   // Passes over `c` if it is next.
   bool accept(char c);
-  void skip_space();   // white space, ends of lines, comments
-  void skip_blanks();  // spaces and tabs
-  // Passes over ends of lines; false when there is none.
-  bool skip_line_ends();
-  void skip_comment();  // from '#' up to the end of the line, if there is one here
+  void skip_space();       // white space, ends of lines, comments
+  void skip_blanks();      // spaces and tabs
+  bool accept_line_end();  // "\n", "\r\n" or "\r"; false when there is none here
+  void skip_comment();     // from '#' up to the end of the line, if there is one here
 
   // <...>, at '<': the text between the brackets, escapes replaced. Not resolved, not checked for a
   // scheme, but free of characters that no IRI may hold.

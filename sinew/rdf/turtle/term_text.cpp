@@ -1,5 +1,7 @@
 #include "sinew/rdf/turtle/term_text.h"
 
+#include <fmt/format.h>
+
 #include "sinew/base/error.h"
 #include "sinew/rdf/iri/iri.h"
 #include "sinew/rdf/turtle/byte_class.h"
@@ -76,6 +78,11 @@ void append_term(std::string& out, Id id, const graph::Terms& terms) {
   }
 }
 
+void BlankLabels::append(std::string& out, Id node) {
+  const std::size_t number = numbers_.try_emplace(node, numbers_.size()).first->second;
+  out += fmt::format("_:b{}", number);
+}
+
 bool is_bare_literal(std::string_view text, std::string_view datatype) {
   if (!datatype.starts_with(kXsd)) return false;
   datatype.remove_prefix(kXsd.size());
@@ -105,6 +112,17 @@ void ShortTerms::append(std::string& out, Id id) {
   append_iri(out, id);
 }
 
+bool ShortTerms::try_append(std::string& out, Id id) {
+  const std::size_t begin = out.size();
+  try {
+    append(out, id);
+    return true;
+  } catch (const Error&) {
+    out.resize(begin);
+    return false;
+  }
+}
+
 void ShortTerms::append_iri(std::string& out, Id id) {
   const auto name = prefixes_.shorten(terms_.text(id));
   if (!name) return rdf::append_iri(out, terms_.text(id));
@@ -121,7 +139,7 @@ void ShortTerms::append_literal(std::string& out, Id id) {
     out += text;
     return;
   }
-  if (text.find('\n') != std::string_view::npos) {
+  if (several_lines_ && text.find('\n') != std::string_view::npos) {
     append_long_quoted(out, text);
   } else {
     append_quoted(out, text);

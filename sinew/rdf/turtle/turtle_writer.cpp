@@ -186,7 +186,7 @@ class TurtleWriter {
 
   void node(std::string& out, Id id) {
     if (terms_.is_blank(id)) {
-      out += fmt::format("_:b{}", labels_.try_emplace(id, labels_.size()).first->second);
+      labels_.append(out, id);
     } else {
       short_terms_.append(out, id);
     }
@@ -196,7 +196,7 @@ class TurtleWriter {
   Shape shape_;
   ShortTerms short_terms_;
   const Id type_, nil_;
-  std::unordered_map<Id, std::size_t> labels_;  // in the order in which they are first written
+  BlankLabels labels_;
 };
 
 }  // namespace

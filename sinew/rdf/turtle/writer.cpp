@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "sinew/base/error.h"
 #include "sinew/rdf/isomorphism/refinement.h"
@@ -31,14 +30,15 @@ void refuse_graphs(std::span<const Quad> quads, const char* name, const char* ot
 // One statement a line. Blank nodes are numbered in the order in which they appear, or, where the
 // lines are to be sorted, by what they are, so that the lines do not depend on the ids.
 std::string write_lines(std::span<const Quad> quads, const graph::Terms& terms, bool sorted) {
-  std::unordered_map<Id, std::size_t> labels;
-  if (sorted) {
-    for (const Id node : ordered_blanks(quads, terms)) labels.emplace(node, labels.size());
-  }
+  BlankLabels labels;
   std::string text;
+  if (sorted) {
+    for (const Id node : ordered_blanks(quads, terms)) labels.append(text, node);
+    text.clear();
+  }
   const auto append = [&](Id id) {
     if (terms.is_blank(id)) {
-      text += fmt::format("_:b{}", labels.try_emplace(id, labels.size()).first->second);
+      labels.append(text, id);
     } else {
       append_term(text, id, terms);
     }
