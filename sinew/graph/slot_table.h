@@ -10,11 +10,16 @@
 #include <memory>
 #include <vector>
 
+#include "sinew/graph/pages.h"
+
 namespace sinew::graph {
 
 class SlotTable {
  public:
-  SlotTable() { install(kFirstCapacity); }
+  SlotTable() {
+    install(kFirstMask);
+    publish();
+  }
 
   // The number whose key has this hash and for which `is_key(number)` holds, or 0.
   template <typename IsKey>
@@ -38,20 +43,24 @@ class SlotTable {
   // Precondition: this one is new.
   void copy_from(const SlotTable& other) {
     const Table* source = other.table_.load(std::memory_order_acquire);
-    install(source->mask + 1);
-    Table& target = *table_.load(std::memory_order_relaxed);
-    for (std::uint32_t at = 0; at <= source->mask; ++at) {
-      target.slots[at].store(source->slots[at].load(std::memory_order_relaxed),
-                             std::memory_order_relaxed);
-    }
+    install(source->mask);
+    std::memcpy(static_cast<void*>(tables_.back()->slots), source->slots, source->bytes());
+    publish();
     used_ = other.used_;
   }
 
  private:
-  static constexpr std::uint32_t kFirstCapacity = 256;
+  static constexpr std::uint32_t kFirstMask = 255;
   struct Table {
+    explicit Table(std::uint32_t last)
+        : mask(last), slots(static_cast<std::atomic<std::uint64_t>*>(allocate_zeroed(bytes()))) {}
+    ~Table() { release_zeroed(slots, bytes()); }
+    Table(const Table&) = delete;
+    Table& operator=(const Table&) = delete;
+    std::size_t bytes() const { return (std::size_t{mask} + 1) * sizeof(std::uint64_t); }
+
     std::uint32_t mask;
-    std::unique_ptr<std::atomic<std::uint64_t>[]> slots;
+    std::atomic<std::uint64_t>* slots;
   };
 
   static void place(Table& table, std::uint64_t slot) {
@@ -59,27 +68,20 @@ class SlotTable {
     while (table.slots[at].load(std::memory_order_relaxed) != 0) at = (at + 1) & table.mask;
     table.slots[at].store(slot, std::memory_order_release);
   }
-  void install(std::uint32_t capacity) {
-    auto table = std::make_unique<Table>();
-    table->mask = capacity - 1;
-    table->slots = std::make_unique<std::atomic<std::uint64_t>[]>(capacity);
-    limit_ = capacity / 2;
-    tables_.push_back(std::move(table));
-    table_.store(tables_.back().get(), std::memory_order_release);
+  void install(std::uint32_t mask) {
+    tables_.push_back(std::make_unique<Table>(mask));
+    // Five eighths full at most, and nearly full only when there are no more numbers.
+    limit_ = mask == UINT32_MAX ? UINT32_MAX - 1 : mask / 8 * 5;
   }
+  void publish() { table_.store(tables_.back().get(), std::memory_order_release); }
   void grow() {
     const Table* old = table_.load(std::memory_order_relaxed);
-    auto table = std::make_unique<Table>();
-    table->mask = old->mask * 2 + 1;
-    table->slots = std::make_unique<std::atomic<std::uint64_t>[]>(std::size_t{table->mask} + 1);
+    install(old->mask * 2 + 1);
     for (std::size_t at = 0; at <= old->mask; ++at) {
       const std::uint64_t slot = old->slots[at].load(std::memory_order_relaxed);
-      if (slot != 0) place(*table, slot);
+      if (slot != 0) place(*tables_.back(), slot);
     }
-    // Half full at most: with a mask of 32 bits that is 2^31 keys, then nearly full tables.
-    limit_ = table->mask == UINT32_MAX ? UINT32_MAX - 1 : (table->mask + 1) / 2;
-    tables_.push_back(std::move(table));
-    table_.store(tables_.back().get(), std::memory_order_release);
+    publish();
   }
 
   std::atomic<Table*> table_ = nullptr;

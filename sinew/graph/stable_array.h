@@ -10,10 +10,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <new>
 #include <type_traits>
+
+#include "sinew/graph/pages.h"
 
 namespace sinew::graph {
 
@@ -22,16 +22,19 @@ class StableArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
 
  public:
-  // The first chunk takes about 128 KiB.
+  // The first chunk takes at most 64 KiB.
   static constexpr std::uint32_t kFirstBits =
-      std::bit_width((std::size_t{1} << 17) / sizeof(T)) - 1;
+      std::bit_width((std::size_t{1} << 16) / sizeof(T)) - 1;
   static constexpr std::uint32_t kFirst = std::uint32_t{1} << kFirstBits;
 
   StableArray() = default;
   StableArray(const StableArray&) = delete;
   StableArray& operator=(const StableArray&) = delete;
   ~StableArray() {
-    for (auto& chunk : chunks_) std::free(chunk.load(std::memory_order_relaxed));
+    for (std::uint32_t number = 0; number < kChunks; ++number) {
+      release_zeroed(chunks_[number].load(std::memory_order_relaxed),
+                     std::size_t{capacity(number)} * sizeof(T));
+    }
   }
 
   // Precondition: `index` was reserved.
@@ -79,8 +82,7 @@ class StableArray {
            (index - (std::uint32_t{1} << (width - 1)));
   }
   void allocate(std::uint32_t number) {
-    void* memory = std::calloc(capacity(number), sizeof(T));
-    if (!memory) throw std::bad_alloc();
+    void* memory = allocate_zeroed(std::size_t{capacity(number)} * sizeof(T));
     chunks_[number].store(static_cast<T*>(memory), std::memory_order_release);
   }
 

@@ -100,7 +100,10 @@ std::shared_ptr<Core> copy_of(const StoreData& data, std::shared_ptr<Terms> term
 }
 
 Error misuse(const char* what, const char* remedy) {
-  return Error(Problem{{}, {}, what, remedy, Severity::kError, {}});
+  Problem problem;
+  problem.what = what;
+  problem.remedy = remedy;
+  return Error(std::move(problem));
 }
 
 }  // namespace

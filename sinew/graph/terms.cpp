@@ -65,12 +65,11 @@ std::uint32_t hash_parts(std::uint32_t role, std::span<const Id> parts) {
 
 Error term_error(std::string_view text, std::string what, std::string remedy) {
   constexpr std::size_t kShown = 80;
-  return Error(Problem{{},
-                       std::string(text.substr(0, kShown)),
-                       std::move(what),
-                       std::move(remedy),
-                       Severity::kError,
-                       {}});
+  Problem problem;
+  problem.iri = text.substr(0, kShown);
+  problem.what = std::move(what);
+  problem.remedy = std::move(remedy);
+  return Error(std::move(problem));
 }
 
 // fresh[0-9]+_*

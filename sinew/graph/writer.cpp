@@ -63,16 +63,14 @@ void Writer::count_pair(List list, std::uint32_t number, int by) {
   store(counter, counter + static_cast<std::uint32_t>(by));
 }
 
-void Writer::check_room() {
-  // So that nothing can fail between a change and its note in the log.
-  if (log_.size() == log_.capacity()) log_.reserve(log_.size() * 2 + 16);
-  if (records.triple_count < limit_ && records.membership_count < limit_) return;
-  Problem problem;
-  problem.what = fmt::format("the store is full: it holds {} triples in {} graph memberships",
-                             records.triple_count, records.membership_count);
-  problem.remedy =
-      "raise its limit, or remove what is no longer needed and begin a new transaction";
-  throw Error(std::move(problem));
+void Writer::prepare() {
+  if (change_count_ == UINT32_MAX) {
+    Problem problem;
+    problem.what = fmt::format("the transaction has made {} changes", change_count_);
+    problem.remedy = "commit now and then";
+    throw Error(std::move(problem));
+  }
+  log_->reserve(change_count_);
 }
 
 // ---- changes ----
@@ -80,7 +78,14 @@ void Writer::check_room() {
 bool Writer::add(const Quad& quad, Version version) {
   const std::uint32_t subject = quad.subject.value, predicate = quad.predicate.value;
   const std::uint32_t object = quad.object.value;
-  check_room();
+  if (records.triple_count >= limit_ || records.membership_count >= limit_) {
+    Problem problem;
+    problem.what = fmt::format("the store is full: it holds {} triples in {} graph memberships",
+                               records.triple_count, records.membership_count);
+    problem.remedy = "raise its limit, or remove what is not needed and begin a new transaction";
+    throw Error(std::move(problem));
+  }
+  prepare();
   Change change{};
   change.pairs[kListSP] = pair_posting(kListSP, subject, predicate);
   change.pairs[kListPO] = pair_posting(kListPO, predicate, object);
@@ -93,7 +98,7 @@ bool Writer::add(const Quad& quad, Version version) {
     change.kind = Change::kAddMembership;
     change.record = present;
     change.membership = append_membership(present, quad.graph.value, version, change);
-    log_.push_back(change);
+    note(change);
     return true;
   }
 
@@ -128,7 +133,7 @@ bool Writer::add(const Quad& quad, Version version) {
   }
   store(records.triple_count, number);
   ++records.live_count;
-  log_.push_back(change);
+  note(change);
   return true;
 }
 
@@ -193,12 +198,12 @@ bool Writer::remove(const Quad& quad, Version version) {
       records.find(quad.subject.value, quad.predicate.value, quad.object.value, version);
   const std::uint32_t membership = triple ? find_membership(triple, quad.graph.value) : 0;
   if (!membership) return false;
-  if (log_.size() == log_.capacity()) log_.reserve(log_.size() * 2 + 16);
   remove_membership(membership, version);
   return true;
 }
 
 void Writer::remove_membership(std::uint32_t number, Version version) {
+  prepare();
   Membership& membership = records.memberships[number];
   Triple& triple = records.triples[membership.triple];
   store(membership.removed, version);
@@ -217,7 +222,7 @@ void Writer::remove_membership(std::uint32_t number, Version version) {
     store(triple.removed, version);
     --records.live_count;
   }
-  log_.push_back(change);
+  note(change);
 }
 
 void Writer::clear(std::uint32_t name, Version version) {
@@ -235,6 +240,7 @@ void Writer::create_graph(std::uint32_t name, Version version) {
   for (std::uint32_t at = graph.marks; at != 0; at = records.marks[at].next) {
     if (records.marks[at].removed == kNever) return;
   }
+  prepare();
   const std::uint32_t mark_number = ++records.mark_count;
   GraphMark& mark = records.marks.reserve(mark_number);
   store(mark.added, version);
@@ -245,7 +251,7 @@ void Writer::create_graph(std::uint32_t name, Version version) {
   change.kind = Change::kAddMark;
   change.record = mark_number;
   change.graph = number;
-  log_.push_back(change);
+  note(change);
 }
 
 void Writer::drop_graph(std::uint32_t name, Version version) {
@@ -254,11 +260,12 @@ void Writer::drop_graph(std::uint32_t name, Version version) {
   if (!graph) return;
   for (std::uint32_t at = graph->marks; at != 0; at = records.marks[at].next) {
     if (records.marks[at].removed != kNever) continue;
+    prepare();
     store(records.marks[at].removed, version);
     Change change{};
     change.kind = Change::kRemoveMark;
     change.record = at;
-    log_.push_back(change);
+    note(change);
   }
 }
 

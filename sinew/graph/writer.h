@@ -4,7 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "sinew/graph/records.h"
 #include "sinew/graph/view.h"
@@ -38,7 +38,7 @@ class Writer {
   void create_graph(std::uint32_t graph, Version version);
   void drop_graph(std::uint32_t graph, Version version);
 
-  std::size_t changes() const { return log_.size(); }
+  std::size_t changes() const { return change_count_; }
   void undo_to(std::size_t mark);
   // Forgets how to undo. Records that were removed and that no reader of version `oldest` or later
   // can see are unlinked, list by list, when as many were removed from a list as remained: constant
@@ -52,7 +52,8 @@ class Writer {
   static constexpr std::uint32_t kFirstPatience = 2;
   // A triple's memberships have no counter: one removal in so many sweeps them.
   static constexpr std::uint32_t kTripleSweep = 16;
-  static constexpr std::size_t kLargeLog = 1 << 16;
+  // A longer log's memory is given back after its transaction.
+  static constexpr std::uint32_t kLargeLog = 1 << 16;
 
   std::uint32_t pair_posting(List list, std::uint32_t first, std::uint32_t second);
   std::uint32_t& node_posting(List list, std::uint32_t term);
@@ -64,7 +65,9 @@ class Writer {
   void remove_membership(std::uint32_t membership, Version version);
   void undo(const Change& change);
   void undo_membership(const Change& change);
-  void check_room();
+  // To be called before a change, so that nothing can fail between it and its note.
+  void prepare();
+  void note(const Change& change) { (*log_)[change_count_++] = change; }
   void count_pair(List list, std::uint32_t posting, int by);
   void sweep(std::uint32_t posting, List list, Version oldest);
   void sweep_graph(std::uint32_t posting, Version oldest);
@@ -72,7 +75,8 @@ class Writer {
 
   std::uint32_t limit_;
   std::uint32_t dead_records_ = 0;
-  std::vector<Change> log_;
+  std::unique_ptr<StableArray<Change>> log_ = std::make_unique<StableArray<Change>>();
+  std::uint32_t change_count_ = 0;
 };
 
 }  // namespace sinew::graph

@@ -4,7 +4,8 @@
 namespace sinew::graph {
 
 void Writer::finish(Version oldest) {
-  for (const Change& change : log_) {
+  for (std::uint32_t at = 0; at < change_count_; ++at) {
+    const Change& change = (*log_)[at];
     if (change.kind != Change::kRemove && change.kind != Change::kRemoveMark) continue;
     ++dead_records_;
     if (change.kind == Change::kRemoveMark) continue;
@@ -22,8 +23,8 @@ void Writer::finish(Version oldest) {
     sweep(node_posting(kListP, triple.predicate), kListP, oldest);
     sweep(node_posting(kListO, triple.object), kListO, oldest);
   }
-  log_.clear();
-  if (log_.capacity() > kLargeLog) log_.shrink_to_fit();
+  if (change_count_ > kLargeLog) log_ = std::make_unique<StableArray<Change>>();
+  change_count_ = 0;
 }
 
 namespace {

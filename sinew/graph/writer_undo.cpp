@@ -4,10 +4,7 @@
 namespace sinew::graph {
 
 void Writer::undo_to(std::size_t mark) {
-  while (log_.size() > mark) {
-    undo(log_.back());
-    log_.pop_back();
-  }
+  while (change_count_ > mark) undo((*log_)[--change_count_]);
 }
 
 void Writer::undo(const Change& change) {
