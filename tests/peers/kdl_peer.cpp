@@ -1,0 +1,133 @@
+#include <kdl/tree.hpp>
+#include <kdl/treefksolverpos_recursive.hpp>
+#include <kdl/treeidsolver_recursive_newton_euler.hpp>
+
+#include "urdf_model.h"
+
+namespace sinew::peers {
+namespace {
+
+KDL::Frame frame(const urdf::Pose& pose) {
+  const auto q = quaternion(pose.rotation);
+  return {KDL::Rotation::Quaternion(q[0], q[1], q[2], q[3]),
+          KDL::Vector(pose.position.x, pose.position.y, pose.position.z)};
+}
+
+KDL::RigidBodyInertia inertia(const urdf::Link& link) {
+  if (!link.inertial) return KDL::RigidBodyInertia::Zero();
+  const urdf::Inertial& i = *link.inertial;
+  return frame(i.origin) *
+         KDL::RigidBodyInertia(i.mass, KDL::Vector::Zero(),
+                               KDL::RotationalInertia(i.ixx, i.iyy, i.izz, i.ixy, i.ixz, i.iyz));
+}
+
+KDL::Joint joint(const urdf::Joint& j) {
+  const KDL::Frame origin = frame(j.parent_to_joint_origin_transform);
+  const KDL::Vector axis = origin.M * KDL::Vector(j.axis.x, j.axis.y, j.axis.z);
+  if (!moves(j)) return KDL::Joint(j.name, KDL::Joint::None);
+  return KDL::Joint(j.name, origin.p, axis,
+                    j.type == urdf::Joint::PRISMATIC ? KDL::Joint::TransAxis : KDL::Joint::RotAxis);
+}
+
+void add_children(KDL::Tree& tree, const urdf::Link& link) {
+  for (const auto& j : link.child_joints) {
+    for (const auto& child : link.child_links) {
+      if (child->parent_joint != j) continue;
+      tree.addSegment(KDL::Segment(child->name, joint(*j),
+                                   frame(j->parent_to_joint_origin_transform), inertia(*child)),
+                      link.name);
+      add_children(tree, *child);
+    }
+  }
+}
+
+class KdlPeer final : public Peer {
+ public:
+  explicit KdlPeer(const Setup& setup) {
+    if (setup.floating) throw std::runtime_error("KDL has no floating base");
+    const auto model = parse_urdf(setup.urdf);
+    tree_ = KDL::Tree(model->getRoot()->name);
+    add_children(tree_, *model->getRoot());
+    const auto count = static_cast<unsigned>(setup.joints.size());
+    if (tree_.getNrOfJoints() != count) throw std::runtime_error("KDL counts other joints");
+    index_.resize(count);
+    for (const auto& [name, element] : tree_.getSegments()) {
+      const auto& segment_joint = element.segment.getJoint();
+      if (segment_joint.getType() == KDL::Joint::None) continue;
+      for (unsigned i = 0; i < count; ++i) {
+        if (setup.joints[i] == segment_joint.getName()) index_[i] = element.q_nr;
+      }
+    }
+    const KDL::Vector gravity(setup.gravity[0], setup.gravity[1], setup.gravity[2]);
+    inverse_ = std::make_unique<KDL::TreeIdSolver_RNE>(tree_, gravity);
+    without_gravity_ = std::make_unique<KDL::TreeIdSolver_RNE>(tree_, KDL::Vector::Zero());
+    q_.resize(count);
+    qd_.resize(count);
+    qdd_.resize(count);
+    tau_.resize(count);
+  }
+
+  std::string name() const override { return "KDL"; }
+
+  Vector inverse_dynamics(const State& state) override {
+    set(state);
+    return solve(*inverse_);
+  }
+
+  Vector mass_matrix(const State& state) override {
+    const std::size_t n = index_.size();
+    Vector matrix(n * n);
+    State unit{state.position, Vector(n, 0), Vector(n, 0)};
+    for (std::size_t column = 0; column < n; ++column) {
+      unit.acceleration.assign(n, 0);
+      unit.acceleration[column] = 1;
+      set(unit);
+      const Vector force = solve(*without_gravity_);
+      for (std::size_t row = 0; row < n; ++row) matrix[row * n + column] = force[row];
+    }
+    return matrix;
+  }
+
+  Vector forward_dynamics(const State&, const Vector&) override {
+    throw std::runtime_error("KDL has no forward dynamics of trees");
+  }
+
+  Vector link_pose(const State& state, const std::string& link) override {
+    set(state);
+    KDL::TreeFkSolverPos_recursive solver(tree_);
+    KDL::Frame pose;
+    if (solver.JntToCart(q_, pose, link) < 0) throw std::runtime_error("KDL has no link " + link);
+    Vector numbers;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) numbers.push_back(pose.M(row, column));
+      numbers.push_back(pose.p(row));
+    }
+    return numbers;
+  }
+
+ private:
+  void set(const State& state) {
+    for (std::size_t i = 0; i < index_.size(); ++i) {
+      q_(index_[i]) = state.position[i];
+      qd_(index_[i]) = state.velocity.empty() ? 0 : state.velocity[i];
+      qdd_(index_[i]) = state.acceleration.empty() ? 0 : state.acceleration[i];
+    }
+  }
+  Vector solve(KDL::TreeIdSolver_RNE& solver) {
+    if (solver.CartToJnt(q_, qd_, qdd_, {}, tau_) != 0) throw std::runtime_error("KDL fails");
+    Vector force;
+    for (const unsigned i : index_) force.push_back(tau_(i));
+    return force;
+  }
+
+  KDL::Tree tree_;
+  std::vector<unsigned> index_;  // of the caller's joints in KDL's arrays
+  std::unique_ptr<KDL::TreeIdSolver_RNE> inverse_, without_gravity_;
+  KDL::JntArray q_, qd_, qdd_, tau_;
+};
+
+}  // namespace
+
+std::unique_ptr<Peer> make_kdl(const Setup& setup) { return std::make_unique<KdlPeer>(setup); }
+
+}  // namespace sinew::peers

@@ -1,0 +1,50 @@
+// Independent libraries that answer the same questions, each built from the same URDF: Orocos KDL,
+// MuJoCo and DART. Tests compare with them, benchmarks race them.
+//
+// All use this project's conventions: joints in the order that the caller names them; a floating
+// base comes first, with position x y z qx qy qz qw, velocity angular then linear in the body
+// frame, acceleration the time derivative of those six numbers, and force torque then force in the
+// body frame. SI units, gravity seen from the world.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sinew::peers {
+
+using Vector = std::vector<double>;
+
+struct Setup {
+  std::string urdf;                 // the text
+  std::vector<std::string> joints;  // moving joints in the caller's order
+  bool floating = false;
+  std::array<double, 3> gravity = {0, 0, -9.81};  // [m/s^2]
+};
+
+// Numbers of the base first if it floats (7, 6, 6), then one for each joint.
+struct State {
+  Vector position, velocity, acceleration;
+};
+
+class Peer {
+ public:
+  virtual ~Peer() = default;
+  virtual std::string name() const = 0;
+  // Forces for the state's acceleration; 6 numbers of the base first if it floats.
+  virtual Vector inverse_dynamics(const State& state) = 0;
+  // Accelerations for these forces.
+  virtual Vector forward_dynamics(const State& state, const Vector& force) = 0;
+  // n x n, row-major, in the order of velocities.
+  virtual Vector mass_matrix(const State& state) = 0;
+  // 3x4 row-major [R p] of a link in the world (the fixed base's frame).
+  virtual Vector link_pose(const State& state, const std::string& link) = 0;
+};
+
+// Throw std::runtime_error with what the library says.
+std::unique_ptr<Peer> make_kdl(const Setup& setup);  // fixed base only
+std::unique_ptr<Peer> make_mujoco(const Setup& setup);
+std::unique_ptr<Peer> make_dart(const Setup& setup);
+
+}  // namespace sinew::peers
