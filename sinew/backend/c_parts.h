@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sinew/backend/c_target.h"
@@ -33,8 +34,11 @@ struct RenderedSource {
   std::vector<LineOrigin> origins;  // of the whole text
 };
 
-// Renders a template with `block` in the place of {{{body}}}, which stands alone on its line.
-RenderedSource render_with_body(std::string_view path, Fields fields, const CodeBlock& block);
+// Renders a template with each block in the place of its {{{name}}}, which stands alone on its
+// line.
+RenderedSource render_with_blocks(
+    std::string_view path, Fields fields,
+    const std::vector<std::pair<std::string, const CodeBlock*>>& blocks);
 
 // The name, sizes, banner and lists of inputs, outputs and states.
 Fields common_fields(const program::Program& program, const program::Interface& interface,

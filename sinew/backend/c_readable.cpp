@@ -81,7 +81,7 @@ RenderedSource readable_source(const program::Program& program, const program::I
   fields.list("inputs", slot_items(interface.inputs));
   fields.list("outputs", slot_items(interface.outputs));
   fields.list("states", slot_items(interface.states));
-  return render_with_body("c/readable.c.mustache", std::move(fields), body);
+  return render_with_blocks("c/readable.c.mustache", std::move(fields), {{"body", &body}});
 }
 
 }  // namespace sinew::backend

@@ -68,27 +68,38 @@ void CodeBlock::add(const std::string& line, std::uint32_t closure) {
   if (closure != program::kNoOrigin) origins.push_back({lines, closure});
 }
 
-RenderedSource render_with_body(std::string_view path, Fields fields, const CodeBlock& block) {
-  // The body is put in after rendering: it is long, and its first line's number is needed.
-  static const std::string kPlace = "@body@";
-  fields.text("body", kPlace);
+RenderedSource render_with_blocks(
+    std::string_view path, Fields fields,
+    const std::vector<std::pair<std::string, const CodeBlock*>>& blocks) {
+  // Blocks are put in after rendering: they are long, and their first lines' numbers are needed.
+  for (const auto& [name, block] : blocks) fields.text(name, "@" + name + "@");
+  const std::string text = render(path, fields);
   RenderedSource result;
-  result.text = render(path, fields);
-  const std::size_t at = result.text.find(kPlace);
-  if (at == std::string::npos) {
-    throw Error(Problem{{std::string(path), 0, 0},
-                        {},
-                        "the template has no {{{body}}}",
-                        "put it on a line of its own",
-                        Severity::kError,
-                        {}});
+  std::size_t done = 0;
+  std::size_t lines = 0;
+  for (const auto& [name, block] : blocks) {
+    const std::string place = "@" + name + "@\n";
+    const std::size_t at = text.find(place, done);
+    if (at == std::string::npos) {
+      throw Error(Problem{{std::string(path), 0, 0},
+                          {},
+                          "the template has no {{{" + name + "}}}, or not in the expected order",
+                          "put it on a line of its own",
+                          Severity::kError,
+                          {}});
+    }
+    lines +=
+        static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(done),
+                                            text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+    result.text.append(text, done, at - done);
+    for (const LineOrigin& origin : block->origins) {
+      result.origins.push_back({lines + origin.line, origin.closure});
+    }
+    result.text += block->text;
+    lines += block->lines;
+    done = at + place.size();
   }
-  const auto before = static_cast<std::size_t>(
-      std::count(result.text.begin(), result.text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-  result.text.replace(at, kPlace.size() + 1, block.text);  // with the newline
-  for (const LineOrigin& origin : block.origins) {
-    result.origins.push_back({before + origin.line, origin.closure});
-  }
+  result.text.append(text, done);
   return result;
 }
 

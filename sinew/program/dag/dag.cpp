@@ -89,6 +89,11 @@ Ref Dag::intern(Node node) {
   return Ref::of(index);
 }
 
+double Dag::sum_of_constants(double x, double y) {
+  const double sum = x + y;
+  return std::abs(sum) <= kCancellation * std::fmax(std::abs(x), std::abs(y)) ? 0.0 : sum;
+}
+
 bool Dag::is_constant(Ref ref, double value) const {
   return is_constant(ref) && constant_value(ref) == value;
 }
@@ -114,11 +119,7 @@ Ref Dag::input(std::uint32_t index) {
 
 Ref Dag::add(Ref a, Ref b) {
   if (is_constant(a) && is_constant(b)) {
-    const double x = constant_value(a);
-    const double y = constant_value(b);
-    const double sum = x + y;
-    const bool noise = std::abs(sum) <= kCancellation * std::fmax(std::abs(x), std::abs(y));
-    return constant(noise ? 0.0 : sum);
+    return constant(sum_of_constants(constant_value(a), constant_value(b)));
   }
   if (is_constant(a, 0.0)) return b;
   if (is_constant(b, 0.0)) return a;

@@ -24,7 +24,7 @@ class Traced {
   friend Traced operator+(const Traced& a, const Traced& b) {
     Dag* dag = either(a, b);
     return dag != nullptr ? Traced(*dag, dag->add(a.in(*dag), b.in(*dag)))
-                          : Traced(a.value_ + b.value_);
+                          : Traced(Dag::sum_of_constants(a.value_, b.value_));
   }
   friend Traced operator-(const Traced& a, const Traced& b) { return a + -b; }
   friend Traced operator*(const Traced& a, const Traced& b) {

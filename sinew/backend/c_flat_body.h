@@ -1,0 +1,24 @@
+// The statements of a flat function, for one sample or for a block of samples; internal to
+// `backend`.
+#pragma once
+
+#include <string>
+
+#include "sinew/backend/c_parts.h"
+
+namespace sinew::backend {
+
+enum class FlatForm {
+  kSample,  // numbers are double; input i is in[i]
+  kBlock,   // numbers are NAME_lanes, one sample in each lane; input i lies at in + i * n
+};
+
+struct FlatBody {
+  CodeBlock code;
+  std::size_t angles = 0;  // whose sine or cosine is taken
+};
+
+FlatBody flat_body(const program::Program& program, const program::Interface& interface,
+                   const program::Computation& computation, const std::string& name, FlatForm form);
+
+}  // namespace sinew::backend
