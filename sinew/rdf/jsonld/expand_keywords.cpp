@@ -71,7 +71,8 @@ void Expander::expand_keyword(Node& node, std::string_view key, const json::Memb
     expand_reverse(node, entry);
     return;
   }
-  if (!expanded.is_null()) {
+  // An "@id" that means nothing stays: the node is not one without identifier.
+  if (!expanded.is_null() || key == keyword::kId) {
     node.result.set(arena_, json::Value::string(key, entry.key.position()), expanded);
   }
 }

@@ -297,8 +297,7 @@ json::Value Expander::finish_value_object(Node& node) {
     fail_at(code::kInvalidLanguageTaggedValue, node, value,
             fmt::format("{} has a language", describe(value)), "a string");
   }
-  if (type != nullptr &&
-      (!type->is_string() || is_blank_node(type->text()) || !rdf::is_absolute_iri(type->text()))) {
+  if (type != nullptr && (!type->is_string() || rdf::fault_of_iri(type->text()))) {
     fail_at(code::kInvalidTypedValue, node, *node.element,
             fmt::format("the datatype of a value is {}", describe(*type)), "one IRI");
   }

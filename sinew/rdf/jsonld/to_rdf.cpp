@@ -12,6 +12,19 @@ namespace sinew::jsonld {
 
 using graph::Id;
 
+namespace {
+
+std::optional<std::string> fault(std::string_view text) {
+  const std::size_t fragment = text.find('#');
+  if (fragment != std::string_view::npos &&
+      text.find('#', fragment + 1) != std::string_view::npos) {
+    return "it has two '#'";
+  }
+  return rdf::fault_of_iri(text);
+}
+
+}  // namespace
+
 ToRdf::ToRdf(const ToRdfContext& context, const QuadSink& sink)
     : context_(context),
       sink_(sink),
@@ -40,13 +53,13 @@ Id ToRdf::blank(std::string_view label) {
 }
 
 Id ToRdf::iri(std::string_view text, json::Position position, std::string_view role, Id subject) {
-  const std::optional<std::string> fault = rdf::fault_of_iri(text);
-  if (!fault) return terms_.iri(text);
+  const std::optional<std::string> wrong = fault(text);
+  if (!wrong) return terms_.iri(text);
   if (context_.check != nullptr) {
     context_.check->dropped_quad(
         place_in(context_.source, position),
         subject ? std::string(terms_.text(subject)) : std::string(text),
-        fmt::format("the {} <{}> is no well-formed IRI: {}", role, text, *fault),
+        fmt::format("the {} <{}> is no well-formed IRI: {}", role, text, *wrong),
         "an absolute IRI, or a term or prefix that a context defines");
   }
   return {};

@@ -1,0 +1,36 @@
+#include "sinew/rdf/jsonld/processor.h"
+
+#include "sinew/graph/store.h"
+#include "sinew/rdf/jsonld/expander.h"
+
+namespace sinew::jsonld {
+
+Processor::Processor(const catalogue::Catalogue& catalogue, Options options)
+    : options_(std::move(options)),
+      remote_documents_(catalogue),
+      contexts_(arena_, remote_documents_, options_) {}
+
+std::string_view Processor::base(std::string_view url) {
+  return options_.base.empty() ? arena_.copy(url) : options_.base;
+}
+
+const Context* Processor::initial_context(std::string_view url) {
+  const Context* context = contexts_.initial(base(url));
+  if (options_.expand_context.is_null()) return context;
+  const json::Value* inner = options_.expand_context.find(keyword::kContext);
+  return contexts_.process(context, inner == nullptr ? options_.expand_context : *inner,
+                           {"expandContext", arena_.copy(url)});
+}
+
+json::Value Processor::expand(const json::Document& document, std::string_view url) {
+  const Source source{document.file, arena_.copy(url)};
+  return Expander(contexts_, source).document(initial_context(url), document.root);
+}
+
+void Processor::to_rdf(const json::Document& document, std::string_view url, graph::Terms& terms,
+                       const QuadSink& sink) {
+  const json::Value expanded = expand(document, url);
+  ToRdf({terms, options_, {document.file, url}}, sink).document(expanded);
+}
+
+}  // namespace sinew::jsonld
