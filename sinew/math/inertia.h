@@ -41,4 +41,16 @@ Wrench<S> newton_euler(const RigidBodyInertia<S>& I, const VelocityTwist<S>& V,
   return {rotation + cross(I.first_moment, A.linear), I.mass * A.linear + U * I.first_moment};
 }
 
+// The same for a body at rest: f = m a + alpha x h, n = I alpha + h x a.
+template <typename S>
+Wrench<S> newton_euler_at_rest(const RigidBodyInertia<S>& I, const AccelerationTwist<S>& A) {
+  const Symmetric3<S>& J = I.rotational;
+  const Vector3<S>& al = A.angular;
+  const Vector3<S> rotation = {J.xx * al.x + J.xy * al.y + J.xz * al.z,
+                               J.xy * al.x + J.yy * al.y + J.yz * al.z,
+                               J.xz * al.x + J.yz * al.y + J.zz * al.z};
+  return {rotation + cross(I.first_moment, A.linear),
+          I.mass * A.linear + cross(al, I.first_moment)};
+}
+
 }  // namespace sinew::math

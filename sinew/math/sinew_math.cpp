@@ -66,20 +66,35 @@ void sinew_add_acceleration_twist(const double* a, const double* b, double* c) {
   store(add(load<AccelerationTwist>(a), load<AccelerationTwist>(b)), c);
 }
 
-void sinew_rotate_velocity_twist(const double* X_AB, const double* V_A, double* V_B) {
-  store(rotate(load<Pose>(X_AB), load<VelocityTwist>(V_A)), V_B);
+void sinew_transform_acceleration_twist_to_distal_at_rest(const double* X_AB, const double* A_A,
+                                                          double* A_B) {
+  store(transform_to_distal_at_rest(load<Pose>(X_AB), load<AccelerationTwist>(A_A)), A_B);
 }
 
-void sinew_rotate_acceleration_twist(const double* X_AB, const double* V_A, const double* V_rel,
-                                     const double* A_A, double* A_B) {
-  store(rotate(load<Pose>(X_AB), load<VelocityTwist>(V_A), load<VelocityTwist>(V_rel),
-               load<AccelerationTwist>(A_A)),
-        A_B);
+void sinew_rotate_velocity_twist_to_proximal(const double* X_AB, const double* V_B, double* V_A) {
+  store(rotate_to_proximal(load<Pose>(X_AB), load<VelocityTwist>(V_B)), V_A);
+}
+
+void sinew_rotate_velocity_twist_to_distal(const double* X_AB, const double* V_A, double* V_B) {
+  store(rotate_to_distal(load<Pose>(X_AB), load<VelocityTwist>(V_A)), V_B);
+}
+
+void sinew_rotate_acceleration_twist_to_proximal(const double* X_AB, const double* A_B,
+                                                 double* A_A) {
+  store(rotate_to_proximal(load<Pose>(X_AB), load<AccelerationTwist>(A_B)), A_A);
+}
+
+void sinew_rotate_acceleration_twist_to_distal(const double* X_AB, const double* A_A, double* A_B) {
+  store(rotate_to_distal(load<Pose>(X_AB), load<AccelerationTwist>(A_A)), A_B);
 }
 
 void sinew_newton_euler_wrench(const double* I, const double* V, const double* A, double* W) {
   store(newton_euler(load<RigidBodyInertia>(I), load<VelocityTwist>(V), load<AccelerationTwist>(A)),
         W);
+}
+
+void sinew_acceleration_twist_to_wrench(const double* I, const double* A, double* W) {
+  store(newton_euler_at_rest(load<RigidBodyInertia>(I), load<AccelerationTwist>(A)), W);
 }
 
 void sinew_transform_wrench_to_proximal(const double* X_AB, const double* W_B, double* W_A) {
@@ -90,6 +105,10 @@ void sinew_accumulate_wrench(const double* a, const double* b, double* c) {
   store(add(load<Wrench>(a), load<Wrench>(b)), c);
 }
 
-void sinew_rotate_wrench(const double* X_AB, const double* W_B, double* W_A) {
-  store(rotate(load<Pose>(X_AB), load<Wrench>(W_B)), W_A);
+void sinew_rotate_wrench_to_proximal(const double* X_AB, const double* W_B, double* W_A) {
+  store(rotate_to_proximal(load<Pose>(X_AB), load<Wrench>(W_B)), W_A);
+}
+
+void sinew_rotate_wrench_to_distal(const double* X_AB, const double* W_A, double* W_B) {
+  store(rotate_to_distal(load<Pose>(X_AB), load<Wrench>(W_A)), W_B);
 }

@@ -45,17 +45,27 @@ void sinew_transform_acceleration_twist_to_distal(const double X_AB[12], const d
 void sinew_add_velocity_twist(const double a[6], const double b[6], double c[6]);
 void sinew_add_acceleration_twist(const double a[6], const double b[6], double c[6]);
 
-/* The same where B has the origin of A. */
-void sinew_rotate_velocity_twist(const double X_AB[12], const double V_A[6], double V_B[6]);
-void sinew_rotate_acceleration_twist(const double X_AB[12], const double V_A[6],
-                                     const double V_rel[6], const double A_A[6], double A_B[6]);
+void sinew_transform_acceleration_twist_to_distal_at_rest(const double X_AB[12],
+                                                          const double A_A[6], double A_B[6]);
+
+/* The same twist, about the same point, seen from other directions. */
+void sinew_rotate_velocity_twist_to_proximal(const double X_AB[12], const double V_B[6],
+                                             double V_A[6]);
+void sinew_rotate_velocity_twist_to_distal(const double X_AB[12], const double V_A[6],
+                                           double V_B[6]);
+void sinew_rotate_acceleration_twist_to_proximal(const double X_AB[12], const double A_B[6],
+                                                 double A_A[6]);
+void sinew_rotate_acceleration_twist_to_distal(const double X_AB[12], const double A_A[6],
+                                               double A_B[6]);
 
 /* The wrench that gives a body with velocity V the acceleration A. */
 void sinew_newton_euler_wrench(const double I[10], const double V[6], const double A[6],
                                double W[6]);
+void sinew_acceleration_twist_to_wrench(const double I[10], const double A[6], double W[6]);
 void sinew_transform_wrench_to_proximal(const double X_AB[12], const double W_B[6], double W_A[6]);
 void sinew_accumulate_wrench(const double a[6], const double b[6], double c[6]);
-void sinew_rotate_wrench(const double X_AB[12], const double W_B[6], double W_A[6]);
+void sinew_rotate_wrench_to_proximal(const double X_AB[12], const double W_B[6], double W_A[6]);
+void sinew_rotate_wrench_to_distal(const double X_AB[12], const double W_A[6], double W_B[6]);
 
 #ifdef __cplusplus
 }

@@ -77,19 +77,34 @@ AccelerationTwist<S> add(const AccelerationTwist<S>& a, const AccelerationTwist<
   return {a.angular + b.angular, a.linear + b.linear};
 }
 
-// Across a joint that does not move the origin (p = 0, v_rel = 0), from A to B.
+// Acceleration of frame B that is rigidly attached to A, of a body at rest:
+// alpha_B = R^T alpha_A, a_B = R^T (a_A + alpha_A x p).
 template <typename S>
-VelocityTwist<S> rotate(const Pose<S>& X_AB, const VelocityTwist<S>& V_A) {
+AccelerationTwist<S> transform_to_distal_at_rest(const Pose<S>& X_AB,
+                                                 const AccelerationTwist<S>& A_A) {
+  return {transpose_times(X_AB.R, A_A.angular),
+          transpose_times(X_AB.R, A_A.linear + cross(A_A.angular, X_AB.p))};
+}
+
+// The same twist, about the same point, seen from other directions: from B to A, and from A to B.
+template <typename S>
+VelocityTwist<S> rotate_to_proximal(const Pose<S>& X_AB, const VelocityTwist<S>& V_B) {
+  return {X_AB.R * V_B.angular, X_AB.R * V_B.linear};
+}
+
+template <typename S>
+VelocityTwist<S> rotate_to_distal(const Pose<S>& X_AB, const VelocityTwist<S>& V_A) {
   return {transpose_times(X_AB.R, V_A.angular), transpose_times(X_AB.R, V_A.linear)};
 }
 
-// alpha_B = R^T alpha_A + (R^T omega_A) x omega_rel, a_B = R^T a_A.
 template <typename S>
-AccelerationTwist<S> rotate(const Pose<S>& X_AB, const VelocityTwist<S>& V_A,
-                            const VelocityTwist<S>& V_rel, const AccelerationTwist<S>& A_A) {
-  const Vector3<S> omega = transpose_times(X_AB.R, V_A.angular);
-  return {transpose_times(X_AB.R, A_A.angular) + cross(omega, V_rel.angular),
-          transpose_times(X_AB.R, A_A.linear)};
+AccelerationTwist<S> rotate_to_proximal(const Pose<S>& X_AB, const AccelerationTwist<S>& A_B) {
+  return {X_AB.R * A_B.angular, X_AB.R * A_B.linear};
+}
+
+template <typename S>
+AccelerationTwist<S> rotate_to_distal(const Pose<S>& X_AB, const AccelerationTwist<S>& A_A) {
+  return {transpose_times(X_AB.R, A_A.angular), transpose_times(X_AB.R, A_A.linear)};
 }
 
 }  // namespace sinew::math

@@ -24,10 +24,15 @@ Wrench<S> add(const Wrench<S>& a, const Wrench<S>& b) {
   return {a.moment + b.moment, a.force + b.force};
 }
 
-// The same across a joint that does not move the origin (p = 0), from B to A.
+// The same wrench, about the same point, seen from other directions: from B to A, and from A to B.
 template <typename S>
-Wrench<S> rotate(const Pose<S>& X_AB, const Wrench<S>& W_B) {
+Wrench<S> rotate_to_proximal(const Pose<S>& X_AB, const Wrench<S>& W_B) {
   return {X_AB.R * W_B.moment, X_AB.R * W_B.force};
+}
+
+template <typename S>
+Wrench<S> rotate_to_distal(const Pose<S>& X_AB, const Wrench<S>& W_A) {
+  return {transpose_times(X_AB.R, W_A.moment), transpose_times(X_AB.R, W_A.force)};
 }
 
 }  // namespace sinew::math

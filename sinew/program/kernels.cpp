@@ -86,27 +86,48 @@ std::vector<Kernel> make_kernels() {
           []<typename S>(const AccelerationTwist<S>& a, const AccelerationTwist<S>& b) {
             return add(a, b);
           }),
-      row("rotate-velocity-twist",
-          []<typename S>(const Pose<S>& X_AB, const VelocityTwist<S>& V_A) {
-            return rotate(X_AB, V_A);
+      row("transform-acceleration-twist-to-distal-at-rest",
+          []<typename S>(const Pose<S>& X_AB, const AccelerationTwist<S>& A_A) {
+            return transform_to_distal_at_rest(X_AB, A_A);
           }),
-      row("rotate-acceleration-twist",
-          []<typename S>(const Pose<S>& X_AB, const VelocityTwist<S>& V_A,
-                         const VelocityTwist<S>& V_rel, const AccelerationTwist<S>& A_A) {
-            return rotate(X_AB, V_A, V_rel, A_A);
+      row("rotate-velocity-twist-to-proximal",
+          []<typename S>(const Pose<S>& X_AB, const VelocityTwist<S>& V_B) {
+            return rotate_to_proximal(X_AB, V_B);
+          }),
+      row("rotate-velocity-twist-to-distal",
+          []<typename S>(const Pose<S>& X_AB, const VelocityTwist<S>& V_A) {
+            return rotate_to_distal(X_AB, V_A);
+          }),
+      row("rotate-acceleration-twist-to-proximal",
+          []<typename S>(const Pose<S>& X_AB, const AccelerationTwist<S>& A_B) {
+            return rotate_to_proximal(X_AB, A_B);
+          }),
+      row("rotate-acceleration-twist-to-distal",
+          []<typename S>(const Pose<S>& X_AB, const AccelerationTwist<S>& A_A) {
+            return rotate_to_distal(X_AB, A_A);
           }),
 
       row("newton-euler-wrench",
           []<typename S>(const RigidBodyInertia<S>& I, const VelocityTwist<S>& V,
                          const AccelerationTwist<S>& A) { return newton_euler(I, V, A); }),
+      row("acceleration-twist-to-wrench",
+          []<typename S>(const RigidBodyInertia<S>& I, const AccelerationTwist<S>& A) {
+            return newton_euler_at_rest(I, A);
+          }),
       row("transform-wrench-to-proximal",
           []<typename S>(const Pose<S>& X_AB, const Wrench<S>& W_B) {
             return transform_to_proximal(X_AB, W_B);
           }),
       row("accumulate-wrench",
           []<typename S>(const Wrench<S>& a, const Wrench<S>& b) { return add(a, b); }),
-      row("rotate-wrench",
-          []<typename S>(const Pose<S>& X_AB, const Wrench<S>& W_B) { return rotate(X_AB, W_B); }),
+      row("rotate-wrench-to-proximal",
+          []<typename S>(const Pose<S>& X_AB, const Wrench<S>& W_B) {
+            return rotate_to_proximal(X_AB, W_B);
+          }),
+      row("rotate-wrench-to-distal",
+          []<typename S>(const Pose<S>& X_AB, const Wrench<S>& W_A) {
+            return rotate_to_distal(X_AB, W_A);
+          }),
   };
   std::sort(rows.begin(), rows.end(),
             [](const Kernel& a, const Kernel& b) { return a.operation < b.operation; });
