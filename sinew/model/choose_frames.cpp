@@ -1,0 +1,190 @@
+#include "sinew/model/choose_frames.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "sinew/model/inertia.h"
+#include "sinew/model/rotation.h"
+
+namespace sinew::model {
+namespace {
+
+// What a constant that is neither 0 nor 1 costs, roughly the products that it takes part in when
+// torques are computed. Only comparisons matter.
+constexpr double kRotationEntry = 3;
+constexpr double kPositionEntry = 2;
+constexpr double kInertiaEntry = 0.5;
+// Sweeps over all bodies; each ends when nothing gets better, in practice after two.
+constexpr int kMaximumSweeps = 5;
+
+bool plain(double entry) {
+  const double size = std::abs(entry);
+  return size < kSnapTolerance || std::abs(size - 1) < kSnapTolerance;
+}
+
+double cost(const Pose& X) {
+  double sum = 0;
+  for (const double r : {X.R.xx, X.R.xy, X.R.xz, X.R.yx, X.R.yy, X.R.yz, X.R.zx, X.R.zy, X.R.zz}) {
+    if (!plain(r)) sum += kRotationEntry;
+  }
+  for (const double p : {X.p.x, X.p.y, X.p.z}) {
+    if (std::abs(p) >= kSnapTolerance) sum += kPositionEntry;
+  }
+  return sum;
+}
+
+// The entries that differ from frame to frame about an axis; mass, h.z and the axial moment stay.
+double cost(const RigidBodyInertia& I) {
+  const double small = kSnapTolerance * (std::abs(I.rotational.xx) + std::abs(I.rotational.zz));
+  double sum = 0;
+  for (const double h : {I.first_moment.x, I.first_moment.y}) {
+    if (std::abs(h) > kSnapTolerance * I.mass) sum += kInertiaEntry;
+  }
+  for (const double i : {I.rotational.xy, I.rotational.xz, I.rotational.yz}) {
+    if (std::abs(i) > small) sum += kInertiaEntry;
+  }
+  return sum;
+}
+
+class Chooser {
+ public:
+  explicit Chooser(Tree& tree) : tree_(tree), children_(tree.bodies.size()) {
+    for (std::uint32_t j = 0; j < tree.joints.size(); ++j) {
+      children_[tree.joints[j].predecessor].push_back(j);
+    }
+  }
+
+  void run() {
+    for (int sweep = 0; sweep < kMaximumSweeps; ++sweep) {
+      bool better = false;
+      for (std::size_t body = tree_.bodies.size(); body-- > 1;) {
+        better |= improve(static_cast<std::uint32_t>(body));
+      }
+      if (!better) return;
+    }
+  }
+
+ private:
+  const Tree::Joint& joint_of(std::uint32_t body) const { return tree_.joints[body - 1]; }
+
+  double cost_with(std::uint32_t body, const Pose& X) const {
+    const Pose back = math::invert(X);
+    double sum = cost(math::compose(joint_of(body).placement, X));
+    for (const std::uint32_t child : children_[body]) {
+      sum += cost(math::compose(back, tree_.joints[child].placement));
+    }
+    const Tree::Body& b = tree_.bodies[body];
+    if (b.has_inertia) sum += cost(transformed(b.inertia, back.R, back.p));
+    return sum;
+  }
+
+  bool improve(std::uint32_t body) {
+    const std::vector<Pose> candidates = candidates_for(body);
+    double best = cost_with(body, identity_pose());
+    const Pose* choice = nullptr;
+    for (const Pose& X : candidates) {
+      const double sum = cost_with(body, X);
+      if (sum < best) {
+        best = sum;
+        choice = &X;
+      }
+    }
+    if (!choice) return false;
+    move_frame(tree_, body, *choice);
+    return true;
+  }
+
+  // Angles modulo a quarter turn, which only permutes axes.
+  static void add_angle(std::vector<double>& angles, double y, double x) {
+    if (std::hypot(x, y) < 1e-9) return;
+    double angle = std::atan2(y, x);
+    angle -= std::numbers::pi / 2 * std::round(angle / (std::numbers::pi / 2));
+    for (const double known : angles) {
+      if (std::abs(angle - known) < 1e-9) return;
+    }
+    angles.push_back(angle);
+  }
+
+  static void add_slide(std::vector<double>& slides, double slide) {
+    for (const double known : slides) {
+      if (std::abs(slide - known) < 1e-9) return;
+    }
+    slides.push_back(slide);
+  }
+
+  // Turns and slides that make entries of a placement plain. `X` leads from the body's frame to a
+  // neighbour's: x becomes perpendicular to both axes, or points from one to the other.
+  static void look_at(const Pose& X, std::vector<double>& angles, std::vector<double>& slides) {
+    const Vector3 axis = {X.R.xz, X.R.yz, X.R.zz};  // the neighbour's z
+    if (std::hypot(axis.x, axis.y) < 1e-9) {
+      add_angle(angles, X.p.y, X.p.x);
+      add_angle(angles, X.R.yx, X.R.xx);
+    } else {
+      add_angle(angles, axis.y, axis.x);
+      // Feet of the common normal of the two axes: the neighbour's p + t axis is nearest to z.
+      const double sine2 = axis.x * axis.x + axis.y * axis.y;
+      const double t = -(axis.x * X.p.x + axis.y * X.p.y) / sine2;
+      add_slide(slides, X.p.z + t * axis.z);
+    }
+    add_slide(slides, X.p.z);
+  }
+
+  std::vector<Pose> candidates_for(std::uint32_t body) const {
+    std::vector<double> angles = {0}, slides = {0};
+    const Tree::Joint& joint = joint_of(body);
+    const Pose back = math::invert(joint.placement);
+    look_at(back, angles, slides);
+    // Slides that clear one entry of the position in the predecessor.
+    const Pose& in = joint.placement;
+    for (const auto& [p, z] :
+         {std::pair{in.p.x, in.R.xz}, std::pair{in.p.y, in.R.yz}, std::pair{in.p.z, in.R.zz}}) {
+      if (std::abs(z) > 1e-3) add_slide(slides, -p / z);
+    }
+    for (const std::uint32_t child : children_[body]) {
+      look_at(tree_.joints[child].placement, angles, slides);
+    }
+    std::vector<Pose> candidates;
+    for (const double angle : angles) {
+      for (const double slide : slides) {
+        candidates.push_back({rotation_about_z(angle), {0, 0, slide}});
+      }
+      // A prismatic joint's axis has a direction but no place.
+      if (joint.kind != JointKind::kPrismatic) continue;
+      candidates.push_back({rotation_about_z(angle), back.p});
+      for (const std::uint32_t child : children_[body]) {
+        candidates.push_back({rotation_about_z(angle), tree_.joints[child].placement.p});
+      }
+    }
+    return candidates;
+  }
+
+  Tree& tree_;
+  std::vector<std::vector<std::uint32_t>> children_;
+};
+
+}  // namespace
+
+void choose_frames(Tree& tree) { Chooser(tree).run(); }
+
+void move_frame(Tree& tree, std::uint32_t body, const Pose& X) {
+  const Pose back = math::invert(X);
+  for (Tree::Joint& joint : tree.joints) {
+    if (joint.successor == body) joint.placement = math::compose(joint.placement, X);
+    if (joint.predecessor == body) joint.placement = math::compose(back, joint.placement);
+  }
+  for (Tree::Frame& frame : tree.frames) {
+    if (frame.body == body) frame.placement = math::compose(back, frame.placement);
+  }
+  Tree::Body& b = tree.bodies[body];
+  if (b.has_inertia) b.inertia = transformed(b.inertia, back.R, back.p);
+}
+
+void snap(Tree& tree) {
+  for (Tree::Joint& joint : tree.joints) snap(joint.placement);
+  for (Tree::Frame& frame : tree.frames) snap(frame.placement);
+  for (Tree::Body& body : tree.bodies) {
+    if (body.has_inertia) snap(body.inertia, kSnapTolerance);
+  }
+}
+
+}  // namespace sinew::model

@@ -1,0 +1,237 @@
+// Joints: what they connect, about or along which axis, which way, and how far.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sinew/model/structure_reader.h"
+
+namespace sinew::model {
+namespace {
+
+// How far an axis may be from a unit vector, and an offset from the axis, to count as written so.
+constexpr double kAxisTolerance = 1e-6;
+
+std::optional<JointKind> read_kind(GraphReader& reader, Id joint) {
+  const Ids& ids = reader.ids;
+  if (reader.is_a(joint, ids.revolute)) return JointKind::kRevolute;
+  if (reader.is_a(joint, ids.prismatic)) return JointKind::kPrismatic;
+  if (reader.is_a(joint, ids.fixed)) return JointKind::kFixed;
+  reader.error(joint, ids.type, "nothing says how the joint moves",
+               "make it a RevoluteJoint, PrismaticJoint or FixedJoint as well");
+  return std::nullopt;
+}
+
+// The two attachments, which must be frames of links.
+std::optional<std::pair<int, int>> read_attachments(GraphReader& reader, const Structure& structure,
+                                                    Id joint) {
+  const Ids& ids = reader.ids;
+  const std::vector<Id> attachments = reader.objects(joint, ids.between_attachments);
+  if (attachments.size() != 2) {
+    reader.error(joint, ids.between_attachments,
+                 fmt::format("the joint has {} attachments", attachments.size()),
+                 "name two frames, one of each link that it connects, in between-attachments");
+    return std::nullopt;
+  }
+  int frames[2] = {};
+  for (int i = 0; i < 2; ++i) {
+    frames[i] = structure.find_frame(attachments[i]);
+    if (frames[i] == kNone || structure.frames[frames[i]].link == kNone) {
+      reader.error(
+          joint, ids.between_attachments,
+          fmt::format("the attachment <{}> is no frame of any link", reader.text(attachments[i])),
+          "name a Frame that is among the simplices of a link (SimplicialComplex)");
+      return std::nullopt;
+    }
+  }
+  return std::pair{frames[0], frames[1]};
+}
+
+// The direction of `line` seen from `frame`, where the model states it: as one of the frame's axes
+// (also when the vector says so of itself, and starts at the frame's origin), or in coordinates.
+std::optional<Vector3> line_direction(GraphReader& reader, const Structure::Frame& frame, Id line) {
+  const Ids& ids = reader.ids;
+  const Id vectors[3] = {ids.vector_x, ids.vector_y, ids.vector_z};
+  const Vector3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const bool starts_here = frame.origin && reader.view.contains(line, ids.start, frame.origin);
+  for (int i = 0; i < 3; ++i) {
+    if (reader.view.contains(frame.iri, vectors[i], line)) return axes[i];
+    if (starts_here && reader.view.contains(line, vectors[i], line)) return axes[i];
+  }
+  std::optional<Vector3> direction;
+  reader.view.match({}, ids.of_direction, line, graph::Dataset::kUnion, [&](const graph::Quad& q) {
+    if (!reader.view.contains(q.subject, ids.seen_by, frame.iri)) return true;
+    if (!reader.scale(q.subject, dimension::kNone, "the direction")) return true;
+    direction = reader.vector(q.subject, ids.x, ids.y, ids.z);
+    return !direction;
+  });
+  return direction;
+}
+
+// The joint's axis as a unit vector, seen from both attachments alike.
+std::optional<Vector3> read_axis(GraphReader& reader, const Structure& structure, Id joint,
+                                 const Structure::Joint& facts) {
+  const Ids& ids = reader.ids;
+  const auto axis = reader.one(joint, ids.common_axis, "the joint's axis");
+  if (!axis) return std::nullopt;
+  const std::vector<Id> lines = reader.objects(*axis, ids.lines);
+  std::optional<Vector3> directions[2];
+  const int frames[2] = {facts.parent, facts.child};
+  for (int i = 0; i < 2; ++i) {
+    const Structure::Frame& frame = structure.frames[frames[i]];
+    for (const Id line : lines) {
+      if ((directions[i] = line_direction(reader, frame, line))) break;
+    }
+    if (!directions[i]) {
+      reader.error(*axis, ids.lines,
+                   fmt::format("none of the lines has a known direction in the attachment <{}> of "
+                               "<{}>",
+                               reader.text(frame.iri), reader.text(joint)),
+                   "let one line be vector-x, vector-y or vector-z of each attachment");
+      return std::nullopt;
+    }
+  }
+  const Vector3 difference = *directions[0] - *directions[1];
+  const double length = std::sqrt(dot(*directions[0], *directions[0]));
+  if (dot(difference, difference) > kAxisTolerance * kAxisTolerance) {
+    reader.error(*axis, ids.lines,
+                 "the axis is another direction in one attachment than in the other, so that joint "
+                 "position zero is not defined",
+                 "use the same axis of both attachments");
+    return std::nullopt;
+  }
+  if (std::abs(length - 1) > 1e-3) {
+    reader.error(*axis, ids.lines, fmt::format("the axis has length {}", length),
+                 "give a unit vector");
+    return std::nullopt;
+  }
+  const Id polarity = reader.view.object(joint, ids.polarity);
+  if (polarity && polarity != ids.positive && polarity != ids.negative) {
+    reader.error(joint, ids.polarity, fmt::format("<{}> is no polarity", reader.text(polarity)),
+                 "write PositivePolarity or NegativePolarity");
+    return std::nullopt;
+  }
+  const double sign = polarity == ids.negative ? -1 : 1;
+  // An axis of a frame stays exactly that; others are made unit vectors.
+  return (length == 1 ? sign : sign / length) * *directions[0];
+}
+
+// Which attachment is the parent: the offset is the child's origin with respect to the parent's.
+void read_direction(GraphReader& reader, const Structure& structure, Structure::Joint& joint) {
+  const Ids& ids = reader.ids;
+  const Id offset = reader.view.object(joint.iri, ids.origin_offset);
+  if (!offset) return;
+  const Id of = reader.view.object(offset, ids.of);
+  const Id wrt = reader.view.object(offset, ids.with_respect_to);
+  const Id parent = structure.frames[joint.parent].origin;
+  const Id child = structure.frames[joint.child].origin;
+  if (!of || of == wrt) return;
+  if (of == child && wrt == parent) {
+    joint.directed = true;
+  } else if (of == parent && wrt == child) {
+    std::swap(joint.parent, joint.child);
+    joint.directed = true;
+  } else {
+    reader.error(joint.iri, ids.origin_offset,
+                 "the offset is not the position of one attachment's origin with respect to the "
+                 "other's",
+                 "let it be of the child attachment's origin, with respect to the parent's");
+  }
+}
+
+// The constant offset of the child's origin along the axis, where it has coordinates.
+void read_offset(GraphReader& reader, const Structure& structure, Structure::Joint& joint) {
+  const Ids& ids = reader.ids;
+  const Id offset = reader.view.object(joint.iri, ids.origin_offset);
+  if (!offset || joint.kind == JointKind::kFixed) return;
+  for (const Structure::Position& position : structure.positions) {
+    const Id relation = reader.view.object(position.coordinate, ids.of_position);
+    if ((relation ? relation : position.coordinate) != offset) continue;
+    if (position.seen_by != joint.parent && position.seen_by != joint.child) {
+      reader.error(position.coordinate, ids.seen_by,
+                   "the joint's offset is seen by neither of its attachments",
+                   "see it by the parent attachment");
+      return;
+    }
+    const double along = dot(position.position, joint.axis);
+    const Vector3 aside = position.position - along * joint.axis;
+    if (dot(aside, aside) > kAxisTolerance * kAxisTolerance) {
+      reader.error(position.coordinate, ids.x, "the joint's offset leaves its axis",
+                   "put an offset aside the axis into the pose of an attachment");
+      return;
+    }
+    joint.offset = along;
+    return;
+  }
+}
+
+void read_limits(GraphReader& reader, Structure& structure) {
+  const Ids& ids = reader.ids;
+  std::unordered_map<Id, Structure::Joint*> by_iri;
+  for (Structure::Joint& joint : structure.joints) by_iri.emplace(joint.iri, &joint);
+  const auto each = [&](Id type, auto&& read) {
+    for (const Id node : reader.all(type)) {
+      const auto of = reader.one(node, ids.of_joint, "the joint that this is of");
+      if (!of) continue;
+      const auto found = by_iri.find(*of);
+      if (found == by_iri.end()) {
+        reader.error(node, ids.of_joint, fmt::format("<{}> is no joint", reader.text(*of)),
+                     "name a joint of these models");
+      } else {
+        read(node, *found->second);
+      }
+    }
+  };
+  const auto scaled = [&](Id node, Id property, const data::Dimension& dimension,
+                          std::string_view what, double& to) {
+    if (!reader.has(node, property)) return;
+    const auto value = reader.number(node, property);
+    const auto scale = reader.scale(node, dimension, what);
+    if (value && scale) to = *value * *scale;
+  };
+  const auto turns = [](const Structure::Joint& joint) {
+    return joint.kind != JointKind::kPrismatic;
+  };
+  each(ids.position_limits, [&](Id node, Structure::Joint& joint) {
+    const auto& dimension = turns(joint) ? dimension::kAngle : dimension::kLength;
+    scaled(node, ids.lower, dimension, "the lower limit", joint.limits.lower);
+    scaled(node, ids.upper, dimension, "the upper limit", joint.limits.upper);
+  });
+  each(ids.velocity_limit, [&](Id node, Structure::Joint& joint) {
+    scaled(node, ids.maximum, turns(joint) ? dimension::kAngularVelocity : dimension::kVelocity,
+           "the velocity limit", joint.limits.maximum_velocity);
+  });
+  each(ids.force_limit, [&](Id node, Structure::Joint& joint) {
+    scaled(node, ids.maximum, turns(joint) ? dimension::kTorque : dimension::kForce,
+           "the force limit", joint.limits.maximum_force);
+  });
+  each(ids.mimicry, [&](Id node, Structure::Joint& joint) {
+    structure.notes.push_back(
+        fmt::format("<{}> mimics <{}> by the model; here it is a joint of its own",
+                    reader.text(joint.iri), reader.text(reader.view.object(node, ids.mimics))));
+  });
+}
+
+}  // namespace
+
+void read_joints(GraphReader& reader, Structure& structure) {
+  for (const Id node : reader.all(reader.ids.joint)) {
+    const auto kind = read_kind(reader, node);
+    const auto attachments = read_attachments(reader, structure, node);
+    if (!kind || !attachments) continue;
+    Structure::Joint joint;
+    joint.iri = node;
+    joint.kind = *kind;
+    std::tie(joint.parent, joint.child) = *attachments;
+    read_direction(reader, structure, joint);
+    if (joint.kind != JointKind::kFixed) {
+      const auto axis = read_axis(reader, structure, node, joint);
+      if (!axis) continue;
+      joint.axis = *axis;
+    }
+    read_offset(reader, structure, joint);
+    structure.joints.push_back(joint);
+  }
+  read_limits(reader, structure);
+}
+
+}  // namespace sinew::model

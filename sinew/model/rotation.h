@@ -1,0 +1,40 @@
+// Rotations and constants of a model: making them, checking them, and clearing them of the dust
+// that computing with rounded numbers leaves.
+#pragma once
+
+#include "sinew/model/tree.h"
+
+namespace sinew::model {
+
+// Entries closer than this to 0, 1 or -1 are exactly that: what pi/2 leaves behind after a cosine,
+// and no number that somebody wrote. (1.5708 is not pi/2 and stays what it is.)
+constexpr double kSnapTolerance = 1e-12;
+
+// How far a stated rotation's columns may be from orthonormal: up to the first, it is taken as it
+// is or made orthonormal in silence; up to the second, with a warning; beyond, it is refused. The
+// second is the tolerance of the published shapes.
+constexpr double kOrthonormalWarning = 1e-6;
+constexpr double kOrthonormalError = 1e-3;
+
+Matrix3 identity_rotation();
+Pose identity_pose();
+bool is_identity(const Pose& X);
+
+// About z by an angle; about fixed axes x, then y, then z (URDF's roll, pitch, yaw).
+Matrix3 rotation_about_z(double angle);
+Matrix3 rotation_from_rpy(double roll, double pitch, double yaw);
+// A rotation whose z is the given unit vector, with the fewest entries that are neither 0 nor 1 nor
+// -1.
+Matrix3 rotation_with_z(const Vector3& axis);
+
+// The largest entry of |R^T R - 1|, or 2 when R is a reflection.
+double orthonormality_error(const Matrix3& R);
+// The rotation nearest to R (polar decomposition). Precondition: orthonormality_error < 0.1.
+Matrix3 nearest_rotation(const Matrix3& R);
+
+double snap(double value, double tolerance = kSnapTolerance);
+void snap(Matrix3& R, double tolerance = kSnapTolerance);
+// Positions snap to 0 only.
+void snap(Pose& X, double tolerance = kSnapTolerance);
+
+}  // namespace sinew::model
