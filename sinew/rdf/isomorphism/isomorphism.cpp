@@ -71,7 +71,11 @@ class Pairing {
  public:
   Pairing(std::span<const Quad> left, std::span<const Quad> right, const graph::Terms& terms,
           std::size_t budget)
-      : left_(left), right_(right), structure_(left, right, terms), budget_(budget) {}
+      : left_(left),
+        right_(right),
+        structure_(left, right, terms),
+        refiner_(structure_),
+        budget_(budget) {}
 
   Likeness run() {
     Partition partition(static_cast<std::uint32_t>(structure_.size()));
@@ -86,7 +90,7 @@ class Pairing {
   Likeness search(Partition partition, std::vector<std::uint32_t> changed) {
     if (spent_ > budget_) return Likeness::kUndecided;
     spent_ += structure_.size();
-    refine(structure_, partition, std::move(changed));
+    refiner_.refine(partition, std::move(changed));
     const auto choice = smallest_open_class(partition);
     if (!choice) return Likeness::kDifferent;
     if (*choice == partition.class_count()) {
@@ -152,6 +156,7 @@ class Pairing {
 
   std::span<const Quad> left_, right_;  // sorted
   BlankStructure structure_;
+  Refiner refiner_;
   std::size_t budget_;
   std::size_t spent_ = 0;
 };

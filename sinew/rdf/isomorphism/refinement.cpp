@@ -138,82 +138,75 @@ std::uint32_t Partition::split(std::span<const std::uint32_t> nodes) {
   return fresh;
 }
 
-void refine(const BlankStructure& structure, Partition& partition,
-            std::vector<std::uint32_t> changed) {
-  struct Seen {
-    std::uint32_t cls;
-    std::uint64_t hash;
-    std::uint32_t node;
-    auto operator<=>(const Seen&) const = default;
-  };
-  // What each node sees of the changed nodes; a sum, because the order of the rows must not matter.
-  std::vector<std::uint64_t> view(structure.size(), 0);
-  std::vector<bool> is_affected(structure.size(), false);
-  std::vector<bool> row_done(structure.rows().size(), false);
-  std::vector<std::uint32_t> rows;
-  std::vector<Seen> affected;
-  std::vector<std::uint32_t> group;
+Refiner::Refiner(const BlankStructure& structure)
+    : structure_(structure),
+      view_(structure.size(), 0),
+      is_affected_(structure.size(), false),
+      row_done_(structure.rows().size(), false) {}
 
+void Refiner::refine(Partition& partition, std::vector<std::uint32_t> changed) {
   while (!changed.empty()) {
-    affected.clear();
-    rows.clear();
-    for (const std::uint32_t node : changed) {
-      for (const std::uint32_t row : structure.rows_of(node)) {
-        if (row_done[row]) continue;
-        row_done[row] = true;
-        rows.push_back(row);
-        for (std::size_t i = 0; i < 4; ++i) {
-          const BlankStructure::Field field = structure.rows()[row][i];
-          if (!field.is_blank) continue;
-          const auto other = static_cast<std::uint32_t>(field.value);
-          view[other] += hash_row(structure.rows()[row], i, partition);
-          if (!is_affected[other]) affected.push_back({partition.class_of[other], 0, other});
-          is_affected[other] = true;
-        }
-      }
-    }
-    for (const std::uint32_t row : rows) row_done[row] = false;
-    for (Seen& seen : affected) {
-      seen.hash = view[seen.node];
-      view[seen.node] = 0;
-      is_affected[seen.node] = false;
-    }
-    std::ranges::sort(affected);
+    look(partition, changed);
     changed.clear();
-
-    for (std::size_t i = 0; i < affected.size();) {
-      const std::uint32_t cls = affected[i].cls;
-      std::size_t end = i;  // of the affected members of this class
-      // The largest part keeps the class, so that the work is bounded (Hopcroft, 1971): what the
-      // other parts see settles what it sees. Members that are not affected are a part too.
-      std::size_t largest_begin = i, largest_size = 0;
-      while (end < affected.size() && affected[end].cls == cls) {
-        std::size_t stop = end;
-        while (stop < affected.size() && affected[stop].cls == cls &&
-               affected[stop].hash == affected[end].hash) {
-          ++stop;
-        }
-        if (stop - end > largest_size) {
-          largest_begin = end;
-          largest_size = stop - end;
-        }
-        end = stop;
-      }
-      const bool untouched_keep = partition.length[cls] - (end - i) >= largest_size;
-      for (std::size_t begin = i; begin < end;) {
-        std::size_t stop = begin;
-        group.clear();
-        while (stop < end && affected[stop].hash == affected[begin].hash) {
-          group.push_back(affected[stop++].node);
-        }
-        if (untouched_keep || begin != largest_begin) {
-          partition.split(group);
-          changed.insert(changed.end(), group.begin(), group.end());
-        }
-        begin = stop;
-      }
-      i = end;
+    for (std::size_t begin = 0, end = 0; begin < affected_.size(); begin = end) {
+      while (end < affected_.size() && affected_[end].cls == affected_[begin].cls) ++end;
+      split(partition, begin, end, changed);
     }
+  }
+}
+
+void Refiner::look(const Partition& partition, std::span<const std::uint32_t> changed) {
+  affected_.clear();
+  rows_.clear();
+  for (const std::uint32_t node : changed) {
+    for (const std::uint32_t row : structure_.rows_of(node)) {
+      if (row_done_[row]) continue;
+      row_done_[row] = true;
+      rows_.push_back(row);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const BlankStructure::Field field = structure_.rows()[row][i];
+        if (!field.is_blank) continue;
+        const auto other = static_cast<std::uint32_t>(field.value);
+        // A sum, because the order of the rows must not matter.
+        view_[other] += hash_row(structure_.rows()[row], i, partition);
+        if (!is_affected_[other]) affected_.push_back({partition.class_of[other], 0, other});
+        is_affected_[other] = true;
+      }
+    }
+  }
+  for (const std::uint32_t row : rows_) row_done_[row] = false;
+  for (Seen& seen : affected_) {
+    seen.hash = view_[seen.node];
+    view_[seen.node] = 0;
+    is_affected_[seen.node] = false;
+  }
+  std::ranges::sort(affected_);
+}
+
+// The largest part keeps the class, so that the work is bounded (Hopcroft, 1971): what the other
+// parts see settles what it sees. The members that are not affected are a part, too.
+void Refiner::split(Partition& partition, std::size_t begin, std::size_t end,
+                    std::vector<std::uint32_t>& changed) {
+  const auto part_end = [&](std::size_t i) {
+    const std::uint64_t hash = affected_[i].hash;
+    while (i < end && affected_[i].hash == hash) ++i;
+    return i;
+  };
+  std::size_t largest = end;
+  std::size_t largest_size = partition.length[affected_[begin].cls] - (end - begin);
+  for (std::size_t i = begin; i < end; i = part_end(i)) {
+    if (part_end(i) - i > largest_size) {
+      largest = i;
+      largest_size = part_end(i) - i;
+    }
+  }
+  for (std::size_t i = begin, next = begin; i < end; i = next) {
+    next = part_end(i);
+    if (i == largest) continue;
+    group_.clear();
+    for (std::size_t k = i; k < next; ++k) group_.push_back(affected_[k].node);
+    partition.split(group_);
+    changed.insert(changed.end(), group_.begin(), group_.end());
   }
 }
 
@@ -226,10 +219,18 @@ std::vector<Id> ordered_blanks(std::span<const graph::Quad> quads, const graph::
   std::vector<std::uint32_t> nodes(structure.size());
   std::iota(nodes.begin(), nodes.end(), 0);
   Partition partition(static_cast<std::uint32_t>(nodes.size()));
-  refine(structure, partition, nodes);
-  std::ranges::sort(nodes, {}, [&](std::uint32_t node) {
-    return std::pair(partition.class_of[node], structure.node(node).value);
-  });
+  Refiner refiner(structure);
+  refiner.refine(partition, nodes);
+  // The members of a class are symmetric, so any of them may come first; what depends on it
+  // follows.
+  for (std::uint32_t cls = 0; cls < partition.class_count(); ++cls) {
+    while (partition.length[cls] > 1) {
+      const std::vector<std::uint32_t> chosen = {partition.members(cls).back()};
+      partition.split(chosen);
+      refiner.refine(partition, chosen);
+    }
+  }
+  std::ranges::sort(nodes, {}, [&](std::uint32_t node) { return partition.class_of[node]; });
   std::vector<Id> ordered;
   ordered.reserve(nodes.size());
   for (const std::uint32_t node : nodes) ordered.push_back(structure.node(node));

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -70,11 +71,33 @@ struct Partition {
   std::vector<std::uint32_t> start, length;  // of a class in `order`
 };
 
-// Splits until the nodes of a class see the same classes around them, given that this held before
-// the `changed` nodes got new classes. For the first call on a fresh partition, all nodes are
-// changed.
-void refine(const BlankStructure& structure, Partition& partition,
-            std::vector<std::uint32_t> changed);
+// Keeps its working memory from one call to the next.
+class Refiner {
+ public:
+  explicit Refiner(const BlankStructure& structure);  // which must outlive it
+  // Splits until the nodes of a class see the same classes around them, given that this held before
+  // the `changed` nodes got new classes. For the first call on a fresh partition, all are changed.
+  void refine(Partition& partition, std::vector<std::uint32_t> changed);
+
+ private:
+  struct Seen {
+    std::uint32_t cls;
+    std::uint64_t hash;
+    std::uint32_t node;
+    auto operator<=>(const Seen&) const = default;
+  };
+  // Fills affected_: the nodes that are in a row with a changed one, and what they see there.
+  void look(const Partition& partition, std::span<const std::uint32_t> changed);
+  // Splits the class of the affected nodes `begin` up to `end`; appends what got a new class.
+  void split(Partition& partition, std::size_t begin, std::size_t end,
+             std::vector<std::uint32_t>& changed);
+
+  const BlankStructure& structure_;
+  std::vector<std::uint64_t> view_;
+  std::vector<bool> is_affected_, row_done_;
+  std::vector<std::uint32_t> rows_, group_;
+  std::vector<Seen> affected_;
+};
 
 // The blank nodes of the quads, those of a class together. The order is the same for any two sets
 // of quads that differ only in the names of their blank nodes, save for the order within a class.

@@ -17,7 +17,7 @@ class CsvReader {
 
   ResultSet read() {
     if (const std::size_t bad = first_invalid_utf8(text_); bad != std::string_view::npos) {
-      for (; offset_ < bad; ++offset_) count(text_[offset_]);
+      while (offset_ < bad) skip();
       fail_at(place(), "a byte is not UTF-8", "save the text as UTF-8");
     }
     if (at_end()) fail_at(place(), "there are no results", "begin with a line of variables");

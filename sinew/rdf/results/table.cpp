@@ -55,6 +55,8 @@ std::string write_table(const ResultSet& results, const graph::Terms& terms,
       if (!row[i]) continue;
       if (terms.is_blank(row[i])) {
         labels.append(cells[i], row[i]);
+      } else if (terms.number(row[i])) {
+        cells[i] = terms.text(row[i]);
       } else if (!short_terms.try_append(cells[i], row[i])) {
         cells[i] = terms.to_string(row[i]);
       }

@@ -210,12 +210,13 @@ std::string_view Scanner::blank_label() {
 }
 
 std::string_view Scanner::language_tag() {
+  const Position start = position();
   ++offset_;
   const std::size_t begin = offset_;
   while (in(kNameAscii, peek()) && peek() != '_') ++offset_;
   const std::string_view tag = text_.substr(begin, offset_ - begin);
   if (!is_language_tag(tag)) {
-    fail(fmt::format("\"{}\" is not a language tag", tag),
+    fail(start, fmt::format("\"{}\" is not a language tag", tag),
          "write letters, then groups of letters and digits, each after a -");
   }
   return tag;
