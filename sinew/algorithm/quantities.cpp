@@ -19,7 +19,7 @@ constexpr std::array kQuantities = {
     Quantity{"velocity-twist", 6, "RAD-PER-SEC M-PER-SEC", "", kTwist},
     Quantity{"acceleration-twist", 6, "RAD-PER-SEC2 M-PER-SEC2", "", kTwist},
     Quantity{"wrench", 6, "N-M N", "", kAt},
-    Quantity{"rigid-body-inertia", 10, "KiloGM KiloGM-M KiloGM-M2", "", kAt},
+    Quantity{"rigid-body-inertia", 10, "KiloGM M-KiloGM KiloGM-M2", "", kAt},
     Quantity{"joint-position", 1, "RAD", "M", kJoint},
     Quantity{"joint-velocity", 1, "RAD-PER-SEC", "M-PER-SEC", kJoint},
     Quantity{"joint-acceleration", 1, "RAD-PER-SEC2", "M-PER-SEC2", kJoint},
