@@ -1,5 +1,6 @@
 #include "sinew/data/dimension.h"
 
+#include <algorithm>
 #include <charconv>
 
 namespace sinew::data {

@@ -1,18 +1,20 @@
 // Digital data representations (ddr): a type described in some other language, read into a Type.
 //
-//   context  text, and where the description comes from
-//   c99      double[3] | double[4][4] | struct { double x, y; } | struct pose { … } | NAME, with
-//   `in "header.h"` Eigen    Matrix<double, 3, 3>, Matrix3d, Vector3f, Quaterniond, Isometry3d,
-//   AngleAxisd … ROS      geometry_msgs/Point; from package/msg/Point.msg in the directories of
-//   TypeSources ASN1     Module.Type; from *.asn and *.asn1 files there. C types as the TASTE
-//   compiler (asn1scc) makes them;
-//            "Module.Type by asn1c" as asn1c does
-//   SMDSD    Repository.Object; from *.smdsd and *.types files there; the plain structs of the
-//   objects IDL      module::Struct; from *.idl files there; the C++11 mapping's plain structs JSON
-//   {"x": number, "v": [number, number]}; C++ only, over nlohmann::json
+// - c99: `double[3]`, `float[4][4]`, `struct pose { double position[3]; … }`, the latter perhaps
+// followed
+//   by `in "pose.h"`, whose declaration is then used.
+// - Eigen: `Matrix<double, 3, 3>`, `Matrix3d`, `Vector3f`, `Quaterniond`, `Isometry3d`,
+// `AngleAxisd` …
+// - ROS: `geometry_msgs/Point`, from package/msg/Point.msg in the directories of TypeSources.
+// - ASN1: `Module.Type`, from the .asn and .asn1 files there; C types as the TASTE compiler
+// (asn1scc)
+//   makes them, or after `by asn1c` as asn1c does.
+// - SMDSD: `Repository.Object`, from the .smdsd and .types files there; the objects' plain structs.
+// - IDL: `module::Struct`, from the .idl files there; the plain structs of the mapping to C++11.
+// - JSON: `{"x": number, "v": [number, number]}`; C++ only, over nlohmann::json.
 //
-// Where C99, ASN1, IDL and SMDSD text itself holds a declaration (struct S { … }), no file is
-// looked for.
+// Where the text of an IDL or SMDSD representation holds a declaration itself, no file is looked
+// for.
 #pragma once
 
 #include <string>
@@ -33,9 +35,8 @@ struct Representation {
   std::string context;
   std::string text;  // as written, spaces normalised
   TypePointer type;
-  std::string
-      header;  // to include; empty when the source declares the type itself or it is built in
-  bool header_optional = false;  // where the header is not found, the source declares the type
+  std::vector<std::string> headers;  // to include; none when the source declares the type itself
+  bool header_optional = false;      // where they are not found, the source declares the type
   bool cpp_only = false;
 };
 

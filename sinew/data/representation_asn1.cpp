@@ -319,7 +319,7 @@ Representation read_asn1(const RepresentationRequest& request) {
   }
   Representation result;
   result.type = Layout(modules, asn1c, request.place).named(type_name, 0);
-  result.header = asn1c ? type_name + ".h" : module->second.file.stem().string() + ".h";
+  result.headers = {asn1c ? type_name + ".h" : module->second.file.stem().string() + ".h"};
   result.header_optional = !asn1c;
   return result;
 }

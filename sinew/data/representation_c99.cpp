@@ -114,7 +114,7 @@ Representation read_c99(const RepresentationRequest& request) {
   result.type = reader.read_extents(reader.read_type(0));
   if (scanner.take("in")) {
     if (scanner.peek().kind != Word::Kind::kString) scanner.fail("'in' wants a header in quotes");
-    result.header = scanner.next().text;
+    result.headers = {scanner.next().text};
   }
   if (!scanner.at_end()) {
     scanner.fail(fmt::format("'{}' is left over after the type", scanner.peek().text));

@@ -63,7 +63,7 @@ Representation read_eigen(const RepresentationRequest& request) {
   const std::string name = scanner.expect_name("one of Eigen's types");
   Representation result;
   result.cpp_only = true;
-  result.header = "Eigen/Geometry";
+  result.headers = {"Eigen/Geometry"};
   if (name == "Matrix") {
     scanner.expect("<");
     const std::string scalar = scanner.expect_name("double or float");

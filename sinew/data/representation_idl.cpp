@@ -297,7 +297,7 @@ Representation read_idl(const RepresentationRequest& request) {
   const auto found = types.by_name.find(name);
   if (found == types.by_name.end()) fail_unknown(request, name, types, ".idl");
   result.type = found->second;
-  result.header = types.file_of[name] + ".hpp";
+  result.headers = {types.file_of[name] + ".hpp"};
   return result;
 }
 
@@ -326,7 +326,7 @@ Representation read_smartsoft(const RepresentationRequest& request) {
   const auto found = types.by_name.find(name + "." + object);
   if (found == types.by_name.end()) fail_unknown(request, name + "." + object, types, ".smdsd");
   result.type = found->second;
-  result.header = fmt::format("{}/{}.hh", name, object);
+  result.headers = {fmt::format("{}/{}.hh", name, object)};
   return result;
 }
 

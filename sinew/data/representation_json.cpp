@@ -47,7 +47,7 @@ Representation read_json(const RepresentationRequest& request) {
   result.type = read_value(scanner, 0);
   if (!scanner.at_end())
     scanner.fail(fmt::format("'{}' is left over after the document", scanner.peek().text));
-  result.header = "nlohmann/json.hpp";
+  result.headers = {"nlohmann/json.hpp"};
   result.cpp_only = true;
   return result;
 }

@@ -1,6 +1,7 @@
 // ROS messages, from their .msg files; C++ types as roscpp's generator makes them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "sinew/data/representation_readers.h"
@@ -135,7 +136,7 @@ Representation read_ros(const RepresentationRequest& request) {
     scanner.fail(fmt::format("'{}' is left over after the message", scanner.peek().text));
   Representation result;
   result.type = Reader(request).read_message(package, name, 0);
-  result.header = fmt::format("{}/{}.h", package, name);
+  result.headers = {fmt::format("{}/{}.h", package, name)};
   result.cpp_only = true;
   return result;
 }

@@ -1,0 +1,150 @@
+// What make_library works with while it checks: tables by name, and the steps. Internal to the
+// module.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sinew/data/alias_algebra.h"
+#include "sinew/data/library.h"
+
+namespace sinew::data {
+
+// A domain's coordinates with their units read.
+struct Coordinates {
+  const CoordinatesDeclaration* declaration = nullptr;
+  std::vector<Space::Slot> slots;
+};
+
+struct Domain {
+  const DomainDeclaration* declaration = nullptr;
+  std::set<std::string> semantics;
+  std::map<std::string, std::vector<std::string>> composites;
+  std::map<std::pair<std::string, std::string>, Coordinates> coordinates;  // by semantic and name
+  bool has_coordinates_for(const std::string& semantic) const;
+  std::vector<std::string> coordinates_of(const std::string& semantic) const;
+  // The conventions that prototypes of this meaning have to state.
+  std::vector<std::string> conventions_of(const std::string& semantic) const;
+  // Nothing when the annotation is not declared.
+  const AnnotationDeclaration* annotation(const std::string& name) const;
+};
+
+// What the views of a plain prototype need to know of its elements.
+struct PlainElements {
+  Algebraic form;
+  ElementMap to_slots;
+  struct Element {
+    std::optional<Access> access;
+    double scale = 1, offset = 0;  // to the element's value in SI units
+    Unit unit;
+    bool constant = false;
+  };
+  std::vector<Element> elements;
+};
+
+struct Units {
+  const UnitsDeclaration* declaration = nullptr;
+  std::vector<Unit> units;  // by element of the algebraic form
+};
+
+class LibraryBuilder {
+ public:
+  LibraryBuilder(const Declarations& declarations, const TypeSources& sources);
+  Library build();
+
+ private:
+  // check_domains.cpp
+  void read_domains();
+  void read_domain(const DomainDeclaration& declaration);
+  void read_coordinates(Domain& domain, const CoordinatesDeclaration& declaration);
+  void check_composites(const Domain& domain);
+  const Domain* find_domain(const Field& name, const std::string& about);
+
+  // check_forms.cpp: algebraic forms, aliases, units
+  void read_algebraics();
+  void read_aliases();
+  void read_units();
+
+  // check_prototypes.cpp
+  void read_prototypes();
+  // The sound prototype of this name, read now if it was not yet; nothing if there is none.
+  std::optional<Index> require_prototype(const std::string& name);
+  void read_prototype(const PrototypeDeclaration& declaration);
+  bool read_plain(const PrototypeDeclaration& declaration, const Domain& domain,
+                  Prototype& prototype);
+  bool read_composite(const PrototypeDeclaration& declaration, const Domain& domain,
+                      Prototype& prototype);
+  bool read_convention(const PrototypeDeclaration& declaration, const Domain& domain,
+                       std::string& convention);
+  std::vector<Unit> units_for(const PrototypeDeclaration& declaration, const std::string& algebraic,
+                              const ElementMap& map, const Space& space);
+  // A copy of `part` that lies inside `whole`, at `place_of_part`; with its own parts.
+  Index add_part(Index whole, const std::string& name, Index part, const Access& place_of_part);
+  // Binds a prototype with members to the composed space of its members.
+  void bind_members(Index prototype, bool writable);
+  std::optional<Representation> representation_of(const Field& name, const std::string& about);
+  void check_dimensions();
+
+  // check_composites.cpp
+  void make_parts(const PrototypeDeclaration& declaration, Index prototype);
+
+  // check_views.cpp
+  void read_views();
+  std::optional<Index> read_view(const ViewDeclaration& declaration, Index whole,
+                                 std::set<std::size_t>& covered);
+
+  // check_functions.cpp
+  void read_functions();
+  void read_conversions();
+
+  // spaces.cpp
+  Index plain_space(const std::string& domain, const std::string& semantic,
+                    const std::string& coordinates, const std::string& convention);
+  Index free_space(const std::string& domain, const std::string& semantic,
+                   const std::string& coordinates, const std::string& convention,
+                   const std::string& algebraic);
+  Index composed_space(const std::string& domain, const std::string& semantic,
+                       std::vector<std::pair<std::string, Index>> members);
+  void close_over_formulas();
+  std::optional<Index> formula_target(const FormulaDeclaration& formula, const Domain& domain,
+                                      const Space& from);
+  void follow_coordinate_functions();
+  std::vector<Index> formula_path(Index from, Index to) const;
+  void sort_by_name();
+  void index();
+
+  void error(const Place& place, const std::string& about, std::string what, std::string remedy);
+
+  const Declarations& declarations_;
+  const TypeSources& sources_;
+  Report report_;
+  Library library_;
+  std::map<std::string, Domain> domains_;
+  std::map<std::string, std::string> older_domain_names_;
+  std::map<std::string, Algebraic> algebraics_;
+  std::map<std::string, const RepresentationDeclaration*> representations_;
+  std::map<std::string, Representation> representations_read_;
+  std::map<std::string, Units> units_;
+  AliasAlgebra aliases_;
+  std::map<std::string, const PrototypeDeclaration*> prototype_declarations_;
+  std::map<std::string, Index> prototypes_;  // those that are sound
+  std::set<std::string> open_prototypes_, unsound_prototypes_;
+  std::map<Index, PlainElements> plain_elements_;
+  std::map<std::string, Index> spaces_;
+  std::map<std::string, Index> functions_;
+};
+
+// "name=value, name=value" in order of the names, and back.
+std::string join_convention(const std::map<std::string, std::string>& convention);
+std::map<std::string, std::string> split_convention(const std::string& convention);
+
+template <typename Map>
+std::vector<std::string> names_of(const Map& map) {
+  std::vector<std::string> names;
+  for (const auto& [name, ignored] : map) names.push_back(name);
+  return names;
+}
+
+}  // namespace sinew::data
