@@ -1,5 +1,6 @@
 #include "sinew/model/choose_frames.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,28 +18,28 @@ constexpr double kInertiaEntry = 0.5;
 // Sweeps over all bodies; each ends when nothing gets better, in practice after two.
 constexpr int kMaximumSweeps = 5;
 
-bool plain(double entry) {
+bool plain(double entry, double tolerance) {
   const double size = std::abs(entry);
-  return size < kSnapTolerance || std::abs(size - 1) < kSnapTolerance;
+  return size <= tolerance || std::abs(size - 1) <= tolerance;
 }
 
-double cost(const Pose& X) {
+double cost(const Pose& X, double tolerance) {
   double sum = 0;
   for (const double r : {X.R.xx, X.R.xy, X.R.xz, X.R.yx, X.R.yy, X.R.yz, X.R.zx, X.R.zy, X.R.zz}) {
-    if (!plain(r)) sum += kRotationEntry;
+    if (!plain(r, tolerance)) sum += kRotationEntry;
   }
   for (const double p : {X.p.x, X.p.y, X.p.z}) {
-    if (std::abs(p) >= kSnapTolerance) sum += kPositionEntry;
+    if (std::abs(p) > tolerance) sum += kPositionEntry;
   }
   return sum;
 }
 
 // The entries that differ from frame to frame about an axis; mass, h.z and the axial moment stay.
-double cost(const RigidBodyInertia& I) {
-  const double small = kSnapTolerance * (std::abs(I.rotational.xx) + std::abs(I.rotational.zz));
+double cost(const RigidBodyInertia& I, double tolerance) {
+  const double small = tolerance * (std::abs(I.rotational.xx) + std::abs(I.rotational.zz));
   double sum = 0;
   for (const double h : {I.first_moment.x, I.first_moment.y}) {
-    if (std::abs(h) > kSnapTolerance * I.mass) sum += kInertiaEntry;
+    if (std::abs(h) > tolerance * I.mass) sum += kInertiaEntry;
   }
   for (const double i : {I.rotational.xy, I.rotational.xz, I.rotational.yz}) {
     if (std::abs(i) > small) sum += kInertiaEntry;
@@ -48,7 +49,8 @@ double cost(const RigidBodyInertia& I) {
 
 class Chooser {
  public:
-  explicit Chooser(Tree& tree) : tree_(tree), children_(tree.bodies.size()) {
+  Chooser(Tree& tree, double tolerance)
+      : tree_(tree), tolerance_(tolerance), children_(tree.bodies.size()) {
     for (std::uint32_t j = 0; j < tree.joints.size(); ++j) {
       children_[tree.joints[j].predecessor].push_back(j);
     }
@@ -69,12 +71,12 @@ class Chooser {
 
   double cost_with(std::uint32_t body, const Pose& X) const {
     const Pose back = math::invert(X);
-    double sum = cost(math::compose(joint_of(body).placement, X));
+    double sum = cost(math::compose(joint_of(body).placement, X), tolerance_);
     for (const std::uint32_t child : children_[body]) {
-      sum += cost(math::compose(back, tree_.joints[child].placement));
+      sum += cost(math::compose(back, tree_.joints[child].placement), tolerance_);
     }
     const Tree::Body& b = tree_.bodies[body];
-    if (b.has_inertia) sum += cost(transformed(b.inertia, back.R, back.p));
+    if (b.has_inertia) sum += cost(transformed(b.inertia, back.R, back.p), tolerance_);
     return sum;
   }
 
@@ -159,12 +161,16 @@ class Chooser {
   }
 
   Tree& tree_;
+  double tolerance_;
   std::vector<std::vector<std::uint32_t>> children_;
 };
 
 }  // namespace
 
-void choose_frames(Tree& tree) { Chooser(tree).run(); }
+// Rounding in the search itself is dust even where the caller keeps all of it.
+void choose_frames(Tree& tree, double tolerance) {
+  Chooser(tree, std::max(tolerance, 1e-14)).run();
+}
 
 void move_frame(Tree& tree, std::uint32_t body, const Pose& X) {
   const Pose back = math::invert(X);
@@ -179,11 +185,11 @@ void move_frame(Tree& tree, std::uint32_t body, const Pose& X) {
   if (b.has_inertia) b.inertia = transformed(b.inertia, back.R, back.p);
 }
 
-void snap(Tree& tree) {
-  for (Tree::Joint& joint : tree.joints) snap(joint.placement);
-  for (Tree::Frame& frame : tree.frames) snap(frame.placement);
+void snap(Tree& tree, double tolerance) {
+  for (Tree::Joint& joint : tree.joints) snap(joint.placement, tolerance);
+  for (Tree::Frame& frame : tree.frames) snap(frame.placement, tolerance);
   for (Tree::Body& body : tree.bodies) {
-    if (body.has_inertia) snap(body.inertia, kSnapTolerance);
+    if (body.has_inertia) snap(body.inertia, tolerance);
   }
 }
 

@@ -10,14 +10,16 @@
 namespace sinew::model {
 
 // Moves the frame of every body but the root's, with everything that is seen from it. Where nothing
-// is gained, frames stay as the model has them.
-void choose_frames(Tree& tree);
+// is gained, frames stay as the model has them. An entry within `tolerance` of 0 or 1 counts as
+// that.
+void choose_frames(Tree& tree, double tolerance);
 
 // Moves one body's frame to `X`, its new pose in the old frame: placements, inertia, and the
 // joint's frame. X must keep the joint's axis.
 void move_frame(Tree& tree, std::uint32_t body, const Pose& X);
 
-// Clears the dust of computing from all constants, within kSnapTolerance.
-void snap(Tree& tree);
+// Clears the dust of computing from all constants: what is within `tolerance` of 0, 1 or -1 is
+// that.
+void snap(Tree& tree, double tolerance);
 
 }  // namespace sinew::model

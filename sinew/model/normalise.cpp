@@ -285,10 +285,10 @@ Tree normalise(graph::Store& store, const graph::Places& places, const Normalise
   add_inertias(work);
   add_gravity(work);
   if (report.has_errors()) return {};
-  snap(work.tree);
+  snap(work.tree, options.snap_tolerance);
   if (options.choose_frames) {
-    choose_frames(work.tree);
-    snap(work.tree);
+    choose_frames(work.tree, options.snap_tolerance);
+    snap(work.tree, options.snap_tolerance);
   }
   name_frames(work);
   return std::move(work.tree);

@@ -13,6 +13,7 @@
 #include "sinew/base/error.h"
 #include "sinew/graph/places.h"
 #include "sinew/graph/store.h"
+#include "sinew/model/rotation.h"
 #include "sinew/model/tree.h"
 
 namespace sinew::model {
@@ -29,6 +30,9 @@ struct NormaliseOptions {
   // Turns and slides joint frames about and along their axes, so that constants become 0 or 1.
   // Frames of the model stay where they are; only frames that nobody named move.
   bool choose_frames = true;
+  // Constants within it of 0, 1 or -1 become that. A coarser one (1e-4 takes 1.5708 for pi/2)
+  // changes results by as much.
+  double snap_tolerance = kSnapTolerance;
 };
 
 Tree normalise(graph::Store& store, const graph::Places& places, const NormaliseOptions& options,

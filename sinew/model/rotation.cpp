@@ -8,7 +8,8 @@ namespace {
 
 // Sine and cosine with the dust of a rounded multiple of pi/2 cleared.
 struct Angle {
-  explicit Angle(double radians) : s(snap(std::sin(radians))), c(snap(std::cos(radians))) {}
+  explicit Angle(double radians)
+      : s(snap(std::sin(radians), kAngleTolerance)), c(snap(std::cos(radians), kAngleTolerance)) {}
   double s, c;
 };
 
@@ -61,7 +62,7 @@ Matrix3 rotation_from_rpy(double roll, double pitch, double yaw) {
                -p.s,
                p.c * r.s,
                p.c * r.c};
-  snap(R);
+  snap(R, kAngleTolerance);
   return R;
 }
 

@@ -9,6 +9,9 @@ namespace sinew::model {
 // Entries closer than this to 0, 1 or -1 are exactly that: what pi/2 leaves behind after a cosine,
 // and no number that somebody wrote. (1.5708 is not pi/2 and stays what it is.)
 constexpr double kSnapTolerance = 1e-12;
+// The same for the sine and cosine of an angle that was read: what rounding pi/2 to a double
+// leaves.
+constexpr double kAngleTolerance = 1e-15;
 
 // How far a stated rotation's columns may be from orthonormal: up to the first, it is taken as it
 // is or made orthonormal in silence; up to the second, with a warning; beyond, it is refused. The
@@ -32,9 +35,9 @@ double orthonormality_error(const Matrix3& R);
 // The rotation nearest to R (polar decomposition). Precondition: orthonormality_error < 0.1.
 Matrix3 nearest_rotation(const Matrix3& R);
 
-double snap(double value, double tolerance = kSnapTolerance);
-void snap(Matrix3& R, double tolerance = kSnapTolerance);
+double snap(double value, double tolerance);
+void snap(Matrix3& R, double tolerance);
 // Positions snap to 0 only.
-void snap(Pose& X, double tolerance = kSnapTolerance);
+void snap(Pose& X, double tolerance);
 
 }  // namespace sinew::model
