@@ -84,8 +84,6 @@ class TermTable {
   std::uint32_t capacity_ = 0;  // of the entries; the table has four times as many slots
 };
 
-struct InverseContext;
-
 struct Context {
   TermTable terms;
   Setting base;
@@ -95,7 +93,6 @@ struct Context {
   Setting direction;
   const Context* previous = nullptr;  // what holds again inside a nested node; nullptr: this one
   bool has_protected_terms = false;
-  mutable const InverseContext* inverse = nullptr;  // made when compaction first asks for it
 };
 
 }  // namespace sinew::jsonld

@@ -32,7 +32,6 @@ const Context* ContextProcessor::initial(std::string_view base) {
 Context* ContextProcessor::clone(const Context& context) {
   Context* result = new (arena_.allocate<Context>()) Context(context);
   result->terms = context.terms.clone(arena_);
-  result->inverse = nullptr;
   return result;
 }
 

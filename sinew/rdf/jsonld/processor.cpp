@@ -1,6 +1,7 @@
 #include "sinew/rdf/jsonld/processor.h"
 
 #include "sinew/graph/store.h"
+#include "sinew/rdf/jsonld/compactor.h"
 #include "sinew/rdf/jsonld/expander.h"
 
 namespace sinew::jsonld {
@@ -25,6 +26,28 @@ const Context* Processor::initial_context(std::string_view url) {
 json::Value Processor::expand(const json::Document& document, std::string_view url) {
   const Source source{document.file, arena_.copy(url)};
   return Expander(contexts_, source).document(initial_context(url), document.root);
+}
+
+json::Value Processor::compact(const json::Document& document, std::string_view url,
+                               const json::Document& context) {
+  const json::Value expanded = expand(document, url);
+  const json::Value* inner = context.root.find(keyword::kContext);
+  const json::Value local = inner == nullptr ? context.root : *inner;
+
+  const bool relative = options_.compact_to_relative || !options_.base.empty();
+  const Context* active = contexts_.initial(relative ? base(url) : std::string_view{});
+  active = contexts_.process(active, local, {context.file, arena_.copy(url)});
+  const json::Value compacted = Compactor(contexts_).document(active, expanded);
+
+  const bool empty = local.is_null() || (local.is_object() && local.members().empty()) ||
+                     (local.is_array() && local.items().empty());
+  if (empty) return compacted;
+  json::Value result = json::Value::object(arena_);
+  result.add(arena_, keyword_value(keyword::kContext), local);
+  for (const json::Member& member : compacted.members()) {
+    result.add(arena_, member.key, member.value);
+  }
+  return result;
 }
 
 void Processor::to_rdf(const json::Document& document, std::string_view url, graph::Terms& terms,

@@ -27,6 +27,10 @@ class Processor {
   // relative references to contexts are resolved against. Empty: there is none.
   json::Value expand(const json::Document& document, std::string_view url);
 
+  // `context` is what stands under "@context" in the result, or an object that has it there.
+  json::Value compact(const json::Document& document, std::string_view url,
+                      const json::Document& context);
+
   // Quads to the sink, terms to the dictionary.
   void to_rdf(const json::Document& document, std::string_view url, graph::Terms& terms,
               const QuadSink& sink);
