@@ -126,6 +126,7 @@ int main(int count, char** arguments) {
     Vocabulary vocabulary;
     const Json files = parse(catalog);
     for (const auto& [iri, file] : files.items()) {
+      if (!file.get_ref<const std::string&>().ends_with(".json")) continue;  // shapes
       vocabulary.read(parse(catalog.parent_path() / file.get<std::string>())["@context"]);
     }
     std::ofstream out(arguments[2]);
