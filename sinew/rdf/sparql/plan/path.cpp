@@ -1,0 +1,65 @@
+#include "sinew/rdf/sparql/plan/path.h"
+
+#include <algorithm>
+
+namespace sinew::rdf::sparql::plan {
+namespace {
+
+using Kind = syntax::Path::Kind;
+
+std::uint32_t compile(const syntax::Path& path, bool inverse, PathSteps& into) {
+  if (path.kind == Kind::kInverse) return compile(path.parts[0], !inverse, into);
+  std::vector<std::uint32_t> parts;
+  for (const syntax::Path& part : path.parts) parts.push_back(compile(part, inverse, into));
+  // (a/b) backward is (^b/^a).
+  if (inverse && path.kind == Kind::kSequence) std::reverse(parts.begin(), parts.end());
+
+  PathStep step;
+  step.kind = path.kind;
+  step.inverse = inverse;
+  step.iri = path.iri;
+  step.first_part = static_cast<std::uint32_t>(into.parts.size());
+  step.part_count = static_cast<std::uint32_t>(parts.size());
+  into.parts.insert(into.parts.end(), parts.begin(), parts.end());
+  const auto zero = [&](std::uint32_t part) { return into.steps[part].matches_zero; };
+  switch (path.kind) {
+    case Kind::kSequence:
+      step.matches_zero = std::all_of(parts.begin(), parts.end(), zero);
+      break;
+    case Kind::kAlternative:
+      step.matches_zero = std::any_of(parts.begin(), parts.end(), zero);
+      break;
+    case Kind::kZeroOrMore:
+    case Kind::kZeroOrOne:
+      step.matches_zero = true;
+      step.visited = into.visited_count++;
+      break;
+    case Kind::kOneOrMore:
+      step.matches_zero = zero(parts[0]);
+      step.visited = into.visited_count++;
+      break;
+    case Kind::kNegated:
+      step.forward = inverse ? path.backward : path.forward;
+      step.backward = inverse ? path.forward : path.backward;
+      step.walks_forward = inverse ? path.walks_backward : path.walks_forward;
+      step.walks_backward = inverse ? path.walks_forward : path.walks_backward;
+      break;
+    case Kind::kIri:
+    case Kind::kInverse:
+      break;
+  }
+  into.steps.push_back(std::move(step));
+  return static_cast<std::uint32_t>(into.steps.size() - 1);
+}
+
+}  // namespace
+
+PathRoots compile_path(const syntax::Path& path, PathSteps& into) {
+  PathRoots roots;
+  roots.forward = compile(path, false, into);
+  roots.backward = compile(path, true, into);
+  roots.starts = into.visited_count++;
+  return roots;
+}
+
+}  // namespace sinew::rdf::sparql::plan

@@ -1,0 +1,40 @@
+// A property path, ready to be walked.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sinew/graph/terms.h"
+#include "sinew/rdf/sparql/syntax/ast.h"
+
+namespace sinew::rdf::sparql::plan {
+
+// One node of a path; the parts of a node lie behind it, in PathSteps::parts.
+struct PathStep {
+  using Kind = syntax::Path::Kind;
+  Kind kind = Kind::kIri;     // never kInverse: inversion is pushed to the leaves
+  bool inverse = false;       // kIri: walked from object to subject
+  bool matches_zero = false;  // reaches the node where it begins, whatever the graph holds
+  std::uint32_t visited = 0;  // kZeroOrMore, kOneOrMore, kZeroOrOne: which set of visited nodes
+  graph::Id iri = {};
+  std::uint32_t first_part = 0, part_count = 0;
+  // kNegated: what no edge may be, by direction.
+  bool walks_forward = false, walks_backward = false;
+  std::vector<graph::Id> forward, backward;
+};
+
+// All paths of one plan.
+struct PathSteps {
+  std::vector<PathStep> steps;
+  std::vector<std::uint32_t> parts;  // indices into `steps`
+  std::uint32_t visited_count = 0;
+};
+
+// Appends the path, and the same path walked backward; returns the two roots.
+struct PathRoots {
+  std::uint32_t forward = 0, backward = 0;
+  std::uint32_t starts = 0;  // the set of visited nodes for when neither end is known
+};
+PathRoots compile_path(const syntax::Path& path, PathSteps& into);
+
+}  // namespace sinew::rdf::sparql::plan

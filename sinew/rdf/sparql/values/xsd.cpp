@@ -1,0 +1,47 @@
+#include "sinew/rdf/sparql/values/xsd.h"
+
+namespace sinew::rdf::sparql::values {
+
+Datatype datatype_of(std::string_view iri) {
+  if (iri == kRdfLangString) return Datatype::kLangString;
+  if (!iri.starts_with(kXsd)) return Datatype::kOther;
+  struct Row {
+    std::string_view name;
+    Datatype datatype;
+  };
+  // The ones that occur most come first.
+  static constexpr Row kRows[] = {
+      {"string", Datatype::kString},
+      {"integer", Datatype::kInteger},
+      {"decimal", Datatype::kDecimal},
+      {"double", Datatype::kDouble},
+      {"boolean", Datatype::kBoolean},
+      {"float", Datatype::kFloat},
+      {"dateTime", Datatype::kDateTime},
+      {"date", Datatype::kDate},
+      {"time", Datatype::kTime},
+      {"duration", Datatype::kDuration},
+      {"dayTimeDuration", Datatype::kDayTimeDuration},
+      {"yearMonthDuration", Datatype::kYearMonthDuration},
+      {"int", Datatype::kInteger},
+      {"long", Datatype::kInteger},
+      {"short", Datatype::kInteger},
+      {"byte", Datatype::kInteger},
+      {"nonNegativeInteger", Datatype::kInteger},
+      {"positiveInteger", Datatype::kInteger},
+      {"nonPositiveInteger", Datatype::kInteger},
+      {"negativeInteger", Datatype::kInteger},
+      {"unsignedLong", Datatype::kInteger},
+      {"unsignedInt", Datatype::kInteger},
+      {"unsignedShort", Datatype::kInteger},
+      {"unsignedByte", Datatype::kInteger},
+      {"dateTimeStamp", Datatype::kDateTime},
+  };
+  const std::string_view name = iri.substr(kXsd.size());
+  for (const Row& row : kRows) {
+    if (row.name == name) return row.datatype;
+  }
+  return Datatype::kOther;
+}
+
+}  // namespace sinew::rdf::sparql::values
