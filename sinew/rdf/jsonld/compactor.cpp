@@ -34,9 +34,10 @@ void Compactor::add(json::Value& object, std::string_view key, const json::Value
   }
 }
 
-json::Value Compactor::document(const Context* context, const json::Value& expanded) {
+json::Value Compactor::document(const Context* context, const json::Value& expanded,
+                                bool always_graph) {
   const json::Value compacted = compact(context, {}, expanded);
-  if (compacted.is_object()) return compacted;
+  if (compacted.is_object() && !always_graph) return compacted;
   json::Value result = json::Value::object(arena_);
   if (compacted.is_null() || (compacted.is_array() && compacted.items().empty())) return result;
   result.add(arena_, json::Value::string(keyword(*context, keyword::kGraph)),

@@ -17,8 +17,9 @@ class Compactor {
   explicit Compactor(ContextProcessor& contexts)
       : contexts_(contexts), arena_(contexts.arena()), options_(contexts.options()) {}
 
-  // An object, without its "@context".
-  json::Value document(const Context* context, const json::Value& expanded);
+  // An object, without its "@context". With `always_graph`, its nodes are under "@graph" even if
+  // there is only one.
+  json::Value document(const Context* context, const json::Value& expanded, bool always_graph);
 
   // A term, a compact IRI, a relative reference, or the IRI itself. `value` is what the IRI is a
   // property of, where that decides between terms.

@@ -3,6 +3,8 @@
 #include "sinew/graph/store.h"
 #include "sinew/rdf/jsonld/compactor.h"
 #include "sinew/rdf/jsonld/expander.h"
+#include "sinew/rdf/jsonld/flatten.h"
+#include "sinew/rdf/jsonld/from_rdf.h"
 
 namespace sinew::jsonld {
 
@@ -30,14 +32,18 @@ json::Value Processor::expand(const json::Document& document, std::string_view u
 
 json::Value Processor::compact(const json::Document& document, std::string_view url,
                                const json::Document& context) {
-  const json::Value expanded = expand(document, url);
+  return compact_expanded(expand(document, url), url, context, false);
+}
+
+json::Value Processor::compact_expanded(const json::Value& expanded, std::string_view url,
+                                        const json::Document& context, bool always_graph) {
   const json::Value* inner = context.root.find(keyword::kContext);
   const json::Value local = inner == nullptr ? context.root : *inner;
 
   const bool relative = options_.compact_to_relative || !options_.base.empty();
   const Context* active = contexts_.initial(relative ? base(url) : std::string_view{});
   active = contexts_.process(active, local, {context.file, arena_.copy(url)});
-  const json::Value compacted = Compactor(contexts_).document(active, expanded);
+  const json::Value compacted = Compactor(contexts_).document(active, expanded, always_graph);
 
   const bool empty = local.is_null() || (local.is_object() && local.members().empty()) ||
                      (local.is_array() && local.items().empty());
@@ -48,6 +54,19 @@ json::Value Processor::compact(const json::Document& document, std::string_view 
     result.add(arena_, member.key, member.value);
   }
   return result;
+}
+
+json::Value Processor::flatten(const json::Document& document, std::string_view url,
+                               const json::Document& context) {
+  NodeMap nodes(arena_, {document.file, url});
+  nodes.add(expand(document, url));
+  const json::Value flattened = nodes.flattened(options_.ordered);
+  if (context.root.is_null()) return flattened;
+  return compact_expanded(flattened, url, context, true);
+}
+
+json::Value Processor::from_rdf(std::span<const graph::Quad> quads, const graph::Terms& terms) {
+  return FromRdf(terms, options_, arena_).document(quads);
 }
 
 void Processor::to_rdf(const json::Document& document, std::string_view url, graph::Terms& terms,

@@ -6,7 +6,7 @@
 // it.
 #pragma once
 
-#include <memory>
+#include <span>
 #include <string_view>
 
 #include "sinew/rdf/catalogue/catalogue.h"
@@ -31,11 +31,20 @@ class Processor {
   json::Value compact(const json::Document& document, std::string_view url,
                       const json::Document& context);
 
+  // With a context that is not null, the result is compacted.
+  json::Value flatten(const json::Document& document, std::string_view url,
+                      const json::Document& context);
+
+  // No quad may come twice. The result is in expanded form.
+  json::Value from_rdf(std::span<const graph::Quad> quads, const graph::Terms& terms);
+
   // Quads to the sink, terms to the dictionary.
   void to_rdf(const json::Document& document, std::string_view url, graph::Terms& terms,
               const QuadSink& sink);
 
  private:
+  json::Value compact_expanded(const json::Value& expanded, std::string_view url,
+                               const json::Document& context, bool always_graph);
   const Context* initial_context(std::string_view url);
   std::string_view base(std::string_view url);
 

@@ -1,0 +1,141 @@
+#include "sinew/rdf/jsonld/from_rdf.h"
+
+#include <algorithm>
+
+#include "sinew/graph/store.h"
+#include "sinew/rdf/jsonld/rdf_names.h"
+
+namespace sinew::jsonld {
+
+using graph::Id;
+
+FromRdf::FromRdf(const graph::Terms& terms, const Options& options, json::Arena& arena)
+    : terms_(terms),
+      options_(options),
+      arena_(arena),
+      rdf_type_(terms.find_iri(rdf_name::kType)),
+      rdf_rest_(terms.find_iri(rdf_name::kRest)),
+      rdf_nil_(terms.find_iri(rdf_name::kNil)),
+      rdf_direction_(terms.find_iri(rdf_name::kDirection)) {}
+
+json::Value FromRdf::document(std::span<const graph::Quad> quads) {
+  graph({});
+  for (const graph::Quad& quad : quads) add(quad);
+  for (Graph& graph : graphs_) {
+    make_compound_literals(graph);
+    make_lists(graph);
+  }
+  return document_of_graphs();
+}
+
+FromRdf::Graph& FromRdf::graph(Id name) {
+  const auto [entry, is_new] = graph_index_.try_emplace(name, graphs_.size());
+  if (is_new) {
+    graphs_.emplace_back().name = name;
+    if (name) node(graphs_.front(), name);
+  }
+  return graphs_[entry->second];
+}
+
+json::Value FromRdf::node(Graph& graph, Id id) {
+  const auto [entry, is_new] = graph.nodes.try_emplace(id);
+  if (is_new) {
+    graph.order.push_back(id);
+    entry->second = json::Value::object(arena_);
+    entry->second.add(arena_, keyword_value(keyword::kId), identifier(id));
+  }
+  return entry->second;
+}
+
+void FromRdf::add(const graph::Quad& quad) {
+  Graph& in = graph(quad.graph);
+  json::Value subject = node(in, quad.subject);
+  const bool is_node = !terms_.is_literal(quad.object);
+  if (quad.predicate == rdf_direction_ &&
+      options_.rdf_direction == RdfDirection::kCompoundLiteral) {
+    in.compound_literals.push_back(quad.subject);
+  }
+  if (is_node && quad.predicate == rdf_type_ && !options_.use_rdf_type) {
+    add_value(subject, keyword_value(keyword::kType), identifier(quad.object), arena_);
+    return;
+  }
+  const json::Value value = object(quad.object);
+  add_value(subject, identifier(quad.predicate), value, arena_);
+  const Usage usage{quad.subject, quad.predicate, value};
+  if (quad.object == rdf_nil_) {
+    in.ends.push_back(usage);
+  } else if (terms_.is_blank(quad.object)) {
+    const auto [entry, is_first] = usages_.try_emplace(quad.object, usage);
+    if (!is_first) entry->second.reset();
+  }
+}
+
+bool FromRdf::is_list_cell(const json::Value& node) const {
+  const json::Value* first = node.find(rdf_name::kFirst);
+  const json::Value* rest = node.find(rdf_name::kRest);
+  if (first == nullptr || rest == nullptr) return false;
+  if (first->items().size() != 1 || rest->items().size() != 1) return false;
+  std::size_t expected = 3;  // with @id
+  if (const json::Value* type = node.find(keyword::kType)) {
+    if (type->items().size() != 1 || !type->items()[0].is_string(rdf_name::kList)) return false;
+    ++expected;
+  }
+  return node.members().size() == expected;
+}
+
+// From the end of each list back to its head.
+void FromRdf::make_lists(Graph& graph) {
+  for (const Usage& end : graph.ends) {
+    Usage usage = end;
+    std::vector<json::Value> items;
+    std::vector<Id> cells;
+    while (usage.property == rdf_rest_ && terms_.is_blank(usage.subject)) {
+      const auto only = usages_.find(usage.subject);
+      const auto cell = graph.nodes.find(usage.subject);
+      if (only == usages_.end() || !only->second || cell == graph.nodes.end() ||
+          !is_list_cell(cell->second)) {
+        break;
+      }
+      items.push_back(cell->second.find(rdf_name::kFirst)->items()[0]);
+      cells.push_back(usage.subject);
+      usage = *only->second;
+    }
+    json::Value list = json::Value::array(arena_);
+    std::for_each(items.rbegin(), items.rend(),
+                  [&](const json::Value& item) { list.append(arena_, item); });
+    usage.value.erase(keyword::kId);
+    usage.value.add(arena_, keyword_value(keyword::kList), list);
+    for (const Id cell : cells) graph.nodes.erase(cell);
+  }
+}
+
+json::Value FromRdf::nodes_of(const Graph& graph) {
+  std::vector<Id> order;
+  std::copy_if(graph.order.begin(), graph.order.end(), std::back_inserter(order),
+               [&](Id id) { return graph.nodes.contains(id); });
+  if (options_.ordered) {
+    std::sort(order.begin(), order.end(), [&](Id a, Id b) {
+      return graph.nodes.at(a).find(keyword::kId)->text() <
+             graph.nodes.at(b).find(keyword::kId)->text();
+    });
+  }
+  json::Value result = json::Value::array(arena_);
+  for (const Id id : order) {
+    const json::Value& node = graph.nodes.at(id);
+    if (node.members().size() > 1) result.append(arena_, node);
+  }
+  return result;
+}
+
+json::Value FromRdf::document_of_graphs() {
+  Graph& unnamed = graphs_.front();
+  for (const Graph& graph : graphs_) {
+    if (!graph.name) continue;
+    // The name of a graph may have been taken for a cell of a list.
+    json::Value name = node(unnamed, graph.name);
+    name.add(arena_, keyword_value(keyword::kGraph), nodes_of(graph));
+  }
+  return nodes_of(unnamed);
+}
+
+}  // namespace sinew::jsonld
