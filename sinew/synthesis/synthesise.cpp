@@ -9,6 +9,7 @@
 #include "sinew/synthesis/context.h"
 #include "sinew/synthesis/drivers.h"
 #include "sinew/synthesis/plan.h"
+#include "sinew/synthesis/read_query.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -147,6 +148,30 @@ void set_scope(Context& context, const Resolved& resolved) {
       context.scope.insert(context.robot.joints[joint].frame);
 }
 
+// The planner's sweeps, or those that somebody wrote.
+Plan plan_of(const Query& query, const Resolved& resolved, std::span<const std::string> given,
+             Report& report) {
+  if (query.sweeps.empty()) return make_plan(steps(), resolved.wishes, given, report);
+  const SweepConfiguration configuration = named_sweeps(query.sweeps);
+  Plan plan;
+  for (const SweepNames& names : configuration.sweeps) {
+    Sweep sweep{
+        names.direction == to_string(Direction::kInward) ? Direction::kInward : Direction::kOutward,
+        {}};
+    for (const std::string& name : names.steps) {
+      if (const Step* step = find_step(name))
+        sweep.steps.push_back(step);
+      else
+        report.error({}, configuration.iri, fmt::format("there is no step {}", name),
+                     "name one of sinew/synthesis/steps.cpp");
+      plan.why.push_back(fmt::format("{}: as {} says", name, configuration.iri));
+    }
+    plan.sweeps.push_back(std::move(sweep));
+  }
+  check_sweeps(plan.sweeps, given, configuration.iri, report);
+  return plan;
+}
+
 void hand_out(Context& context, const Resolved& resolved) {
   for (const Wanted& wanted : resolved.wanted)
     context.builder.output(context.block(wanted.quantity->slot, wanted.element));
@@ -163,7 +188,7 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
   Report report;
   const Resolved resolved = resolve(store, view, robot, query, report);
   const std::vector<std::string> given = given_slots(query);
-  const Plan plan = make_plan(steps(), resolved.wishes, given, report);
+  const Plan plan = plan_of(query, resolved, given, report);
   report.throw_if_errors();
 
   graph::Terms& terms = store.terms();

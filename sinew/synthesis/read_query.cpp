@@ -1,0 +1,250 @@
+#include "sinew/synthesis/read_query.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "sinew/algorithm/names.h"
+#include "sinew/rdf/jsonld/load.h"
+
+namespace sinew::synthesis {
+
+// solvers/*.json, written into the library by the build.
+std::span<const std::pair<std::string_view, std::string_view>> embedded_solvers();
+
+namespace {
+
+using algorithm::short_name;
+using graph::Id;
+
+// A JSON-LD text in a graph of its own.
+struct Document {
+  graph::Store store;
+  graph::Places places;
+};
+
+void load(std::string_view text, const std::string& file, const catalogue::Catalogue& catalogue,
+          Document& document) {
+  Report report;
+  graph::Transaction transaction = document.store.begin();
+  jsonld::Loader loader(catalogue);
+  loader.load(
+      text, file, document.store.terms(), [&](const graph::Quad& quad) { transaction.add(quad); },
+      &document.places, report);
+  report.throw_if_errors();
+  transaction.commit();
+}
+
+// Reads the properties of nodes in the query vocabulary.
+class Reader {
+ public:
+  Reader(const graph::View& view, const graph::Places* places, Report& report)
+      : view_(view), terms_(view.terms()), places_(places), report_(report) {}
+
+  Id word(std::string_view name) const {
+    return terms_.find_iri(std::string(kQueryNamespace) + std::string(name));
+  }
+  Id rdf(std::string_view name) const {
+    return terms_.find_iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#" + std::string(name));
+  }
+
+  Id only_of_type(std::string_view type, const std::string& file) {
+    std::vector<Id> found;
+    const Id property = rdf("type"), wanted = word(type);
+    if (property && wanted)
+      view_.match({}, property, wanted, graph::Dataset::kUnion, [&](const graph::Quad& quad) {
+        found.push_back(quad.subject);
+        return true;
+      });
+    if (found.size() == 1) return found.front();
+    report_.error({file, 0, 0}, "", fmt::format("{} nodes of type {}", found.size(), type),
+                  fmt::format("the file holds one {}", type));
+    return {};
+  }
+
+  std::vector<Id> objects(Id subject, std::string_view property) const {
+    std::vector<Id> found;
+    if (const Id predicate = word(property))
+      view_.match(subject, predicate, {}, graph::Dataset::kUnion, [&](const graph::Quad& quad) {
+        found.push_back(quad.object);
+        return true;
+      });
+    return found;
+  }
+
+  std::string text(Id subject, std::string_view property) {
+    const std::vector<Id> found = objects(subject, property);
+    if (found.size() > 1) error(subject, property, "has two values of", "state one");
+    return found.empty() ? "" : std::string(terms_.text(found.front()));
+  }
+
+  std::string required_text(Id subject, std::string_view property) {
+    std::string value = text(subject, property);
+    if (value.empty()) error(subject, property, "lacks", "state it");
+    return value;
+  }
+
+  std::vector<Id> list(Id subject, std::string_view property) {
+    std::vector<Id> items;
+    const std::vector<Id> heads = objects(subject, property);
+    if (heads.empty()) return items;
+    const Id nil = rdf("nil"), first = rdf("first"), rest = rdf("rest");
+    for (Id node = heads.front(); node && node != nil; node = view_.object(node, rest)) {
+      const Id item = first ? view_.object(node, first) : Id{};
+      if (!item || items.size() > kLongestList) {
+        error(subject, property, "has a broken list of", "write a list");
+        break;
+      }
+      items.push_back(item);
+    }
+    return items;
+  }
+
+  // An element's name: one of the words that stand for several, or an IRI.
+  std::string element(Id subject) {
+    const std::string name = text(subject, "of");
+    for (const std::string_view several : {kEveryJoint, kEveryTip})
+      if (name == std::string(kQueryNamespace) + std::string(several)) return std::string(several);
+    return name;
+  }
+
+  void error(Id node, std::string_view property, std::string_view what, std::string remedy) {
+    report_.error(places_ ? places_->find(node, word(property)) : Place{},
+                  std::string(terms_.text(node)), fmt::format("{} {}", what, property),
+                  std::move(remedy));
+  }
+
+  const graph::Terms& terms() const { return terms_; }
+
+ private:
+  static constexpr std::size_t kLongestList = 10'000;
+
+  const graph::View& view_;
+  const graph::Terms& terms_;
+  const graph::Places* places_;
+  Report& report_;
+};
+
+void read_gravity(Reader& reader, Id node, Query& query) {
+  const std::vector<Id> numbers = reader.list(node, "gravity");
+  if (numbers.empty()) return;
+  std::array<double, 3> vector{};
+  bool fine = numbers.size() == 3;
+  for (std::size_t i = 0; fine && i < 3; ++i) {
+    const auto number = reader.terms().number(numbers[i]);
+    fine = number.has_value();
+    vector[i] = number.value_or(0);
+  }
+  if (fine)
+    query.gravity = vector;
+  else
+    reader.error(node, "gravity", "has no vector of", "three numbers [m/s^2]");
+}
+
+SweepConfiguration read_sweeps(const graph::View& view, Id node, const graph::Places* places,
+                               Report& report) {
+  Reader reader(view, places, report);
+  SweepConfiguration configuration;
+  configuration.iri = view.terms().text(node);
+  for (const Id sweep : reader.list(node, "sweep")) {
+    SweepNames names;
+    names.direction = short_name(reader.required_text(sweep, "direction"));
+    for (const Id step : reader.list(sweep, "steps"))
+      names.steps.emplace_back(short_name(view.terms().text(step)));
+    configuration.sweeps.push_back(std::move(names));
+  }
+  return configuration;
+}
+
+std::string_view embedded(std::string_view file) {
+  for (const auto& [name, text] : embedded_solvers())
+    if (name == file) return text;
+  return {};
+}
+
+}  // namespace
+
+Query read_query(const graph::View& view, Id node, const graph::Places* places, Report& report) {
+  Reader reader(view, places, report);
+  Query query;
+  query.name = reader.text(node, "name");
+  if (query.name.empty()) query.name = short_name(view.terms().text(node));
+  for (const Id asked : reader.list(node, "asks"))
+    query.asked.push_back({reader.required_text(asked, "quantity"), reader.element(asked), ""});
+  for (const Id given : reader.objects(node, "gives"))
+    query.given.push_back({reader.required_text(given, "quantity"), reader.element(given)});
+  query.base = reader.text(node, "base");
+  for (const Id tip : reader.list(node, "tips")) query.tips.emplace_back(view.terms().text(tip));
+  read_gravity(reader, node, query);
+  query.floating = reader.text(node, "floating") == "true";
+  query.sweeps = reader.text(node, "sweeps");
+  if (query.asked.empty())
+    reader.error(node, "asks", "asks for nothing: it lacks", "list what is asked");
+  return query;
+}
+
+Query parse_query(std::string_view text, const std::string& file,
+                  const catalogue::Catalogue& catalogue) {
+  Document document;
+  load(text, file, catalogue, document);
+  Report report;
+  const graph::View view = document.store.view();
+  const Id node = Reader(view, &document.places, report).only_of_type("Query", file);
+  report.throw_if_errors();
+  Query query = read_query(view, node, &document.places, report);
+  report.throw_if_errors();
+  return query;
+}
+
+SweepConfiguration parse_sweeps(std::string_view text, const std::string& file,
+                                const catalogue::Catalogue& catalogue) {
+  Document document;
+  load(text, file, catalogue, document);
+  Report report;
+  const graph::View view = document.store.view();
+  const Id node = Reader(view, &document.places, report).only_of_type("SweepConfiguration", file);
+  report.throw_if_errors();
+  SweepConfiguration configuration = read_sweeps(view, node, &document.places, report);
+  report.throw_if_errors();
+  return configuration;
+}
+
+std::vector<std::string> named_queries() {
+  std::vector<std::string> names;
+  for (const auto& [file, text] : embedded_solvers()) {
+    const std::string_view name = file.substr(0, file.rfind('.'));
+    if (name.find('/') == std::string_view::npos) names.emplace_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Query named_query(std::string_view name) {
+  const std::string file = std::string(name) + ".json";
+  const std::string_view text = embedded(file);
+  if (text.empty())
+    throw Error(Problem{{},
+                        std::string(name),
+                        "there is no solver of this name",
+                        fmt::format("one of {}", fmt::join(named_queries(), ", ")),
+                        {},
+                        {}});
+  return parse_query(text, "solvers/" + file, catalogue::Catalogue());
+}
+
+SweepConfiguration named_sweeps(std::string_view name) {
+  const std::string file = "sweeps/" + std::string(short_name(name)) + ".json";
+  const std::string_view text = embedded(file);
+  if (text.empty())
+    throw Error(Problem{{},
+                        std::string(name),
+                        "there is no sweep configuration of this name",
+                        "one of solvers/sweeps/",
+                        {},
+                        {}});
+  return parse_sweeps(text, "solvers/" + file, catalogue::Catalogue());
+}
+
+}  // namespace sinew::synthesis
