@@ -50,6 +50,16 @@ std::string declaration(const Type& type, SourceLanguage language) {
   return fmt::format("{}struct {} {};{}", open, name, struct_body(type, language), close);
 }
 
+std::string include(const std::string& header) {
+  if (header.starts_with("Eigen/")) {
+    // Debian puts Eigen into a folder that is not searched by itself.
+    return fmt::format(
+        "#if __has_include(<{0}>)\n#include <{0}>\n#else\n#include <eigen3/{0}>\n#endif\n", header);
+  }
+  const bool quoted = header.ends_with(".h") && header.find('/') == std::string::npos;
+  return quoted ? fmt::format("#include \"{}\"\n", header) : fmt::format("#include <{}>\n", header);
+}
+
 bool uses(const Type& type, std::string_view word) {
   if (type.spelling.find(word) != std::string::npos) return true;
   if (type.kind == Type::Kind::kVector && word == "std::vector") return true;
@@ -96,11 +106,7 @@ std::string emit_type_declarations(const std::vector<const Representation*>& rep
   std::string text;
   if (language == SourceLanguage::kCpp && strings) text += "#include <string>\n";
   if (language == SourceLanguage::kCpp && vectors) text += "#include <vector>\n";
-  for (const std::string& header : firm) {
-    const bool quoted = header.ends_with(".h") && header.find('/') == std::string::npos;
-    text +=
-        quoted ? fmt::format("#include \"{}\"\n", header) : fmt::format("#include <{}>\n", header);
-  }
+  for (const std::string& header : firm) text += include(header);
   for (const std::string& header : optional) {
     const std::string macro = macro_name(header);
     text += fmt::format(
