@@ -174,11 +174,17 @@ class Emitter {
     const std::size_t padded = (n + kWidest - 1) / kWidest * kWidest;
     const std::string tag = result_.angles == 0 ? "" : std::to_string(result_.angles);
     const std::string lanes = block_form_ ? fmt::format("{} * {}_LANES", n, upper_) : "";
-    line(fmt::format("double sine{0}[{1}], cosine{0}[{1}];", tag,
-                     block_form_ ? lanes : std::to_string(padded)));
+    line(fmt::format("{2}_ALIGNED double sine{0}[{1}], cosine{0}[{1}];", tag,
+                     block_form_ ? lanes : std::to_string(padded), upper_));
     std::string from;
+    const auto each = [&](auto text) {
+      std::string sum;
+      for (std::size_t k = 0; k < n; ++k) sum += (k == 0 ? "" : " + ") + text(k);
+      return sum;
+    };
+    std::string squares;
     if (block_form_) {
-      line(fmt::format("double angle{}[{}];", tag, lanes));
+      line(fmt::format("{}_ALIGNED double angle{}[{}];", upper_, tag, lanes));
       for (std::size_t k = 0; k < n; ++k) {
         const Node& node = dag_.node(group.angles[k]);
         const std::string to = fmt::format("angle{} + {} * {}_LANES", tag, k, upper_);
@@ -189,17 +195,21 @@ class Emitter {
         }
       }
       from = "angle" + tag;
+      squares = fmt::format("{}_squares({}, {})", prefix_, from, lanes);
     } else if (contiguous(group, padded)) {
-      from = fmt::format("in + {}", dag_.node(group.angles[0]).index);
+      const std::uint32_t first = dag_.node(group.angles[0]).index;
+      from = fmt::format("in + {}", first);
+      squares = each([&](std::size_t k) { return fmt::format("in[{0}] * in[{0}]", first + k); });
     } else {
       std::string list;
       for (const std::uint32_t angle : group.angles)
         list += (list.empty() ? "" : ", ") + value(angle);
-      line(fmt::format("const double angle{}[{}] = {{ {} }};", tag, padded, list));
+      line(fmt::format("{}_ALIGNED const double angle{}[{}] = {{ {} }};", upper_, tag, padded, list));
       from = "angle" + tag;
+      squares = each([&](std::size_t k) { return fmt::format("{0}[{1}] * {0}[{1}]", from, k); });
     }
-    line(fmt::format("{}_sincos_all({}, sine{}, cosine{}, {});", prefix_, from, tag, tag,
-                     block_form_ ? lanes : std::to_string(n)));
+    line(fmt::format("{}_sincos_all({}, sine{}, cosine{}, {}, {});", prefix_, from, tag, tag,
+                     block_form_ ? lanes : std::to_string(n), squares));
     for (std::size_t k = 0; k < n; ++k) {
       const Node& node = dag_.node(group.angles[k]);
       const std::string angle =

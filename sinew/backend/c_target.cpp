@@ -9,6 +9,7 @@
 #include "sinew/backend/numbers.h"
 #include "sinew/base/error.h"
 #include "sinew/program/dead_closures.h"
+#include "sinew/program/passes/passes.h"
 #include "sinew/program/trace.h"
 #include "sinew/program/validate.h"
 
@@ -154,7 +155,7 @@ GeneratedCode generate_c(const program::Program& program, const COptions& option
   program::require_valid(program);
   const program::Program live = program::without_dead_closures(program);
   const program::Interface interface = program::interface_of(live);
-  const program::Computation computation = program::trace(live);
+  const program::Computation computation = program::optimise(program::trace(live));
 
   GeneratedCode code;
   code.operations = program::count_operations(computation);

@@ -1,0 +1,12 @@
+// Takes common factors out of sums: a b + a c + d becomes a (b + c) + d, which saves a
+// multiplication. Not in the graph's constructors, because it pays only where nobody else uses the
+// products.
+#pragma once
+
+#include "sinew/program/dag/dag.h"
+
+namespace sinew::program {
+
+Computation factor_sums(Computation computation);
+
+}  // namespace sinew::program

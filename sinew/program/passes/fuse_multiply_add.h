@@ -1,0 +1,12 @@
+// Makes a product that nobody else uses and the addition that uses it one operation, a b + c. Where
+// the longest path allows it, a sum of products becomes one chain of them. Last of the passes that
+// change the graph: no other looks into fused operations.
+#pragma once
+
+#include "sinew/program/dag/dag.h"
+
+namespace sinew::program {
+
+Computation fuse_multiply_add(Computation computation);
+
+}  // namespace sinew::program
