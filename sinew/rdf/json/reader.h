@@ -28,4 +28,7 @@ Document read(std::string_view text, std::string_view file);
 // The same into an arena of the caller's. `text` is referred to and must live as long as the arena.
 Value read_into(std::string_view text, std::string_view file, Arena& arena);
 
+// True when the whole text is a number in JSON's notation.
+bool is_number(std::string_view text);
+
 }  // namespace sinew::json

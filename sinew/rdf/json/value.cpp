@@ -210,6 +210,11 @@ void Value::erase(std::string_view key) {
   if (member == kNotFound) return;
   std::copy(object.members + member + 1, object.members + object.size, object.members + member);
   --object.size;
+  members_were_moved();
+}
+
+void Value::members_were_moved() {
+  ObjectData& object = object_of(data_);
   if (object.index == nullptr) return;
   std::memset(object.index, 0, object.index_capacity * sizeof(std::uint32_t));
   for (std::uint32_t i = 0; i < object.size; ++i) insert_into_index(object, i);

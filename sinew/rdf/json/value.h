@@ -68,6 +68,8 @@ class Value {
   // Adds a member that is known to be new.
   Value* add(Arena& arena, Value key, Value value);
   void erase(std::string_view key);
+  // To be called after the members have been put into another order.
+  void members_were_moved();
 
   // Equal for two handles of the same array, object or piece of text, and for those only.
   const void* identity() const { return data_; }

@@ -58,6 +58,11 @@ bool holds_only_scalars(const Value& value) {
          });
 }
 
+bool holds_only_numbers(const Value& array) {
+  return std::all_of(array.items().begin(), array.items().end(),
+                     [](const Value& item) { return item.is_number(); });
+}
+
 class PrettyWriter {
  public:
   explicit PrettyWriter(std::size_t width) : width_(width) {}
@@ -69,6 +74,7 @@ class PrettyWriter {
       return;
     }
     const bool array = value.is_array();
+    if (array && holds_only_numbers(value)) return numbers(value, indent);
     out += array ? '[' : '{';
     bool first = true;
     const auto next = [&] {
@@ -94,6 +100,28 @@ class PrettyWriter {
   std::string out;
 
  private:
+  void numbers(const Value& array, std::size_t indent) {
+    out += '[';
+    std::size_t column = width_;  // of the next number; the first one starts a line
+    for (std::size_t i = 0; i < array.items().size(); ++i) {
+      const std::string_view number = array.items()[i].text();
+      if (i > 0) out += ',';
+      if (column + number.size() + 2 > width_) {
+        out += '\n';
+        out.append(indent + 2, ' ');
+        column = indent + 2;
+      } else {
+        out += ' ';
+        ++column;
+      }
+      out += number;
+      column += number.size() + 1;
+    }
+    out += '\n';
+    out.append(indent, ' ');
+    out += ']';
+  }
+
   // On the rest of the line, with a comma behind it.
   bool fits(const Value& value) {
     if (!holds_only_scalars(value)) return false;

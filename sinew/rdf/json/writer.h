@@ -12,7 +12,7 @@ namespace sinew::json {
 std::string to_text(const Value& value);
 
 // Indented; an array or object that fits on the rest of its line and holds nothing nested stays on
-// that line.
+// that line. The numbers of a longer array fill lines.
 std::string to_pretty_text(const Value& value, std::size_t width = 100);
 
 // The JSON Canonicalization Scheme: keys sorted by UTF-16 code units, numbers as ECMAScript prints

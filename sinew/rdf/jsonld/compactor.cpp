@@ -5,9 +5,38 @@
 #include <algorithm>
 #include <vector>
 
+#include "sinew/rdf/json/reader.h"
 #include "sinew/rdf/jsonld/iri_expansion.h"
+#include "sinew/rdf/jsonld/rdf_names.h"
 
 namespace sinew::jsonld {
+namespace {
+
+bool tells_its_datatype(const json::Value& object, const Context& active,
+                        const TermDefinition& term) {
+  const json::Value* value = object.find(keyword::kValue);
+  const json::Value* type = object.find(keyword::kType);
+  if (value == nullptr || type == nullptr || object.members().size() != 2) return false;
+  switch (value->kind()) {
+    case json::Kind::kBoolean:
+      return type->is_string(rdf_name::kBoolean);
+    case json::Kind::kNumber: {
+      const bool integer = value->text().find_first_of(".eE") == std::string_view::npos;
+      return type->is_string(integer ? rdf_name::kInteger : rdf_name::kDouble);
+    }
+    case json::Kind::kString: {
+      const auto none = [](const Setting& of_term, const Setting& of_context) {
+        return !(of_term.is_absent() ? of_context : of_term).has_text();
+      };
+      return type->is_string(rdf_name::kString) && none(term.language, active.language) &&
+             none(term.direction, active.direction);
+    }
+    default:
+      return false;
+  }
+}
+
+}  // namespace
 
 const TermDefinition& Compactor::definition(const Context& active, Property term) const {
   static const TermDefinition kNoTerm;
@@ -47,9 +76,16 @@ json::Value Compactor::document(const Context* context, const json::Value& expan
 
 json::Value Compactor::compact(const Context* active, Property property,
                                const json::Value& element) {
-  if (element.is_array()) return compact_array(active, property, element);
-  if (element.is_object()) return compact_object(active, property, element);
-  return element;
+  if (element.is_scalar() || element.is_null()) return element;
+  if (++depth_ > json::kMaxDepth) {
+    fail(code::kLoadingDocumentFailed, {}, "",
+         fmt::format("nodes and lists are nested more than {} deep", json::kMaxDepth),
+         "a flatter graph");
+  }
+  const json::Value result = element.is_array() ? compact_array(active, property, element)
+                                                : compact_object(active, property, element);
+  --depth_;
+  return result;
 }
 
 json::Value Compactor::compact_array(const Context* active, Property property,
@@ -217,6 +253,9 @@ json::Value Compactor::compact_value(const Context& active, Property property,
       result = json::Value::string(compact_iri(active, id->text(), true));
     }
   } else if (type != nullptr && type->is_string() && type->text() == term.type) {
+    return *value.find(keyword::kValue);
+  } else if (plain_values_ && term.type.empty() && id == nullptr && index == nullptr &&
+             tells_its_datatype(value, active, term)) {
     return *value.find(keyword::kValue);
   } else if (term.type == keyword::kNone || type != nullptr) {
     if (type != nullptr) {

@@ -14,8 +14,13 @@ namespace sinew::jsonld {
 
 class Compactor {
  public:
-  explicit Compactor(ContextProcessor& contexts)
-      : contexts_(contexts), arena_(contexts.arena()), options_(contexts.options()) {}
+  // With `plain_values`, a value that JSON's notation tells the datatype of is written plainly for
+  // every term without a type of its own: 1.5 and 1.0 are xsd:double, 1 is xsd:integer.
+  explicit Compactor(ContextProcessor& contexts, bool plain_values = false)
+      : contexts_(contexts),
+        arena_(contexts.arena()),
+        options_(contexts.options()),
+        plain_values_(plain_values) {}
 
   // An object, without its "@context". With `always_graph`, its nodes are under "@graph" even if
   // there is only one.
@@ -70,7 +75,9 @@ class Compactor {
   ContextProcessor& contexts_;
   json::Arena& arena_;
   const Options& options_;
+  bool plain_values_;
   std::unordered_map<const Context*, InverseContext> inverse_;
+  std::size_t depth_ = 0;
 };
 
 }  // namespace sinew::jsonld

@@ -1,6 +1,9 @@
 #include "sinew/rdf/jsonld/from_rdf.h"
 
 #include <algorithm>
+#include <iterator>
+#include <unordered_set>
+#include <utility>
 
 #include "sinew/graph/store.h"
 #include "sinew/rdf/jsonld/rdf_names.h"
@@ -9,10 +12,12 @@ namespace sinew::jsonld {
 
 using graph::Id;
 
-FromRdf::FromRdf(const graph::Terms& terms, const Options& options, json::Arena& arena)
+FromRdf::FromRdf(const graph::Terms& terms, const Options& options, json::Arena& arena,
+                 FromRdfStyle style)
     : terms_(terms),
       options_(options),
       arena_(arena),
+      style_(style),
       rdf_type_(terms.find_iri(rdf_name::kType)),
       rdf_rest_(terms.find_iri(rdf_name::kRest)),
       rdf_nil_(terms.find_iri(rdf_name::kNil)),
@@ -24,6 +29,7 @@ json::Value FromRdf::document(std::span<const graph::Quad> quads) {
   for (Graph& graph : graphs_) {
     make_compound_literals(graph);
     make_lists(graph);
+    if (style_.embed_blank_nodes) embed(graph);
   }
   return document_of_graphs();
 }
@@ -61,7 +67,7 @@ void FromRdf::add(const graph::Quad& quad) {
   }
   const json::Value value = object(quad.object);
   add_value(subject, identifier(quad.predicate), value, arena_);
-  const Usage usage{quad.subject, quad.predicate, value};
+  const Usage usage{quad.graph, quad.subject, quad.predicate, value};
   if (quad.object == rdf_nil_) {
     in.ends.push_back(usage);
   } else if (terms_.is_blank(quad.object)) {
@@ -83,30 +89,94 @@ bool FromRdf::is_list_cell(const json::Value& node) const {
   return node.members().size() == expected;
 }
 
-// From the end of each list back to its head.
+// A usage in another graph does not count: what is moved there would change its graph.
+const FromRdf::Usage* FromRdf::only_usage(const Graph& graph, Id node) const {
+  const auto found = usages_.find(node);
+  if (found == usages_.end() || !found->second || found->second->graph != graph.name)
+    return nullptr;
+  return &*found->second;
+}
+
+Id FromRdf::home(const Graph& graph, Id cell) const {
+  for (auto next = graph.holder.find(cell); next != graph.holder.end();
+       next = graph.holder.find(cell)) {
+    cell = next->second;
+  }
+  return cell;
+}
+
+// From the end of each list back to its head. A list that contains itself stays as it is.
 void FromRdf::make_lists(Graph& graph) {
   for (const Usage& end : graph.ends) {
     Usage usage = end;
     std::vector<json::Value> items;
     std::vector<Id> cells;
     while (usage.property == rdf_rest_ && terms_.is_blank(usage.subject)) {
-      const auto only = usages_.find(usage.subject);
+      const Usage* only = only_usage(graph, usage.subject);
       const auto cell = graph.nodes.find(usage.subject);
-      if (only == usages_.end() || !only->second || cell == graph.nodes.end() ||
-          !is_list_cell(cell->second)) {
-        break;
-      }
+      if (only == nullptr || cell == graph.nodes.end() || !is_list_cell(cell->second)) break;
       items.push_back(cell->second.find(rdf_name::kFirst)->items()[0]);
       cells.push_back(usage.subject);
-      usage = *only->second;
+      usage = *only;
     }
+    const Id holder = home(graph, usage.subject);
+    if (std::find(cells.begin(), cells.end(), holder) != cells.end()) continue;
     json::Value list = json::Value::array(arena_);
     std::for_each(items.rbegin(), items.rend(),
                   [&](const json::Value& item) { list.append(arena_, item); });
     usage.value.erase(keyword::kId);
     usage.value.add(arena_, keyword_value(keyword::kList), list);
-    for (const Id cell : cells) graph.nodes.erase(cell);
+    for (const Id cell : cells) {
+      graph.nodes.erase(cell);
+      graph.holder.emplace(cell, usage.subject);
+    }
   }
+}
+
+// A node's members become those of the only reference to it.
+void FromRdf::embed_into(Graph& graph, Id id, const Usage& usage) {
+  json::Value reference = usage.value;
+  reference.erase(keyword::kId);
+  const auto node = graph.nodes.find(id);
+  for (const json::Member& member : node->second.members()) {
+    if (member.name() != keyword::kId) reference.add(arena_, member.key, member.value);
+  }
+  graph.nodes.erase(node);
+}
+
+// From the nodes that stand on their own inwards. Nodes that are only reached from each other have
+// one of them that stands on its own all the same.
+void FromRdf::embed(Graph& graph) {
+  std::unordered_map<Id, std::vector<Id>> inner;
+  std::vector<Id> roots, circles;
+  for (const Id id : graph.order) {
+    if (!graph.nodes.contains(id)) continue;
+    const Usage* only = terms_.is_blank(id) ? only_usage(graph, id) : nullptr;
+    if (only == nullptr || graph_index_.contains(id)) {
+      roots.push_back(id);
+    } else {
+      inner[home(graph, only->subject)].push_back(id);
+      circles.push_back(id);
+    }
+  }
+  std::unordered_set<Id> seen;
+  std::vector<std::pair<Id, std::size_t>> open;
+  const auto visit_from = [&](Id root) {
+    if (!seen.insert(root).second) return;
+    open.emplace_back(root, 0);
+    while (!open.empty()) {
+      const auto [outer, depth] = open.back();
+      open.pop_back();
+      for (const Id id : inner[outer]) {
+        if (!seen.insert(id).second) continue;
+        const bool too_deep = depth + 1 > kMaxEmbedding;
+        if (!too_deep) embed_into(graph, id, *only_usage(graph, id));
+        open.emplace_back(id, too_deep ? 0 : depth + 1);
+      }
+    }
+  };
+  for (const Id id : roots) visit_from(id);
+  for (const Id id : circles) visit_from(id);
 }
 
 json::Value FromRdf::nodes_of(const Graph& graph) {

@@ -19,9 +19,23 @@ struct Quad;
 
 namespace sinew::jsonld {
 
+// What goes beyond the standard, for documents that people read.
+struct FromRdfStyle {
+  // Numbers and booleans in JSON's notation, and every value with its datatype beside it, so that
+  // the terms of a context can be chosen by datatype. Numbers keep their value, and xsd:decimal its
+  // text.
+  bool typed_native_values = false;
+  // A blank node that is used once is written where it is used, without a label.
+  bool embed_blank_nodes = false;
+};
+
+// Blank nodes are embedded in each other up to this depth; deeper ones get labels.
+inline constexpr std::size_t kMaxEmbedding = 40;
+
 class FromRdf {
  public:
-  FromRdf(const graph::Terms& terms, const Options& options, json::Arena& arena);
+  FromRdf(const graph::Terms& terms, const Options& options, json::Arena& arena,
+          FromRdfStyle style = {});
 
   // No quad may come twice. Nodes come in the order in which the quads first mention them; with
   // Options::ordered, sorted by their identifiers.
@@ -31,6 +45,7 @@ class FromRdf {
   // A value that refers to a node: the node and the property that it is a value of, and the value
   // itself, which becomes a list if it turns out to be one.
   struct Usage {
+    graph::Id graph;
     graph::Id subject;
     graph::Id property;
     json::Value value;
@@ -41,6 +56,8 @@ class FromRdf {
     std::unordered_map<graph::Id, json::Value> nodes;
     std::vector<Usage> ends;  // usages of rdf:nil
     std::vector<graph::Id> compound_literals;
+    // Of a list's cells, which are no nodes any more: the subject that has the list as a value.
+    std::unordered_map<graph::Id, graph::Id> holder;
   };
   // The only usage of a blank node so far; empty when there are several.
   using OnlyUsage = std::optional<Usage>;
@@ -50,6 +67,11 @@ class FromRdf {
   void add(const graph::Quad& quad);
   void make_lists(Graph& graph);
   void make_compound_literals(Graph& graph);
+  void embed(Graph& graph);
+  void embed_into(Graph& graph, graph::Id node, const Usage& usage);
+  const Usage* only_usage(const Graph& graph, graph::Id node) const;
+  // The node in whose lists a cell has ended up.
+  graph::Id home(const Graph& graph, graph::Id cell) const;
   bool is_list_cell(const json::Value& node) const;
   json::Value nodes_of(const Graph& graph);
   json::Value document_of_graphs();
@@ -57,6 +79,7 @@ class FromRdf {
   json::Value identifier(graph::Id id);
   json::Value object(graph::Id id);
   void literal(json::Value& result, graph::Id id);
+  void typed_native(json::Value& result, graph::Id id);
   bool native(json::Value& result, std::string_view lexical, std::string_view datatype);
   bool directed(json::Value& result, std::string_view lexical, std::string_view datatype);
   json::Value text(std::string_view text) { return json::Value::string(text); }
@@ -64,6 +87,7 @@ class FromRdf {
   const graph::Terms& terms_;
   const Options& options_;
   json::Arena& arena_;
+  FromRdfStyle style_;
   std::vector<Graph> graphs_;  // the default graph first
   std::unordered_map<graph::Id, std::size_t> graph_index_;
   std::unordered_map<graph::Id, OnlyUsage> usages_;

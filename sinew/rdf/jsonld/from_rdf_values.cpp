@@ -20,6 +20,35 @@ json::Value FromRdf::identifier(Id id) {
   return text(terms_.text(id));
 }
 
+namespace {
+
+// The text of a whole number as a double: "1.0", so that it is not taken for an integer.
+std::string double_number(double value) {
+  std::string result = json::ecmascript_number(value);
+  if (result.find_first_of(".e") == std::string::npos) result += ".0";
+  if (value == 0 && std::signbit(value)) result.insert(0, "-");
+  return result;
+}
+
+}  // namespace
+
+void FromRdf::typed_native(json::Value& result, Id id) {
+  const std::string_view lexical = terms_.text(id);
+  const std::string_view datatype = terms_.text(terms_.datatype(id));
+  json::Value value = text(lexical);
+  if (datatype == rdf_name::kBoolean && (lexical == "true" || lexical == "false")) {
+    value = json::Value::boolean(lexical == "true");
+  } else if (const std::optional<double> number = terms_.number(id)) {
+    if (datatype == rdf_name::kDouble && std::isfinite(*number)) {
+      value = json::Value::number(arena_.copy(double_number(*number)));
+    } else if (datatype != rdf_name::kDouble && json::is_number(lexical)) {
+      value = json::Value::number(lexical);
+    }
+  }
+  result.add(arena_, keyword_value(keyword::kValue), value);
+  result.add(arena_, keyword_value(keyword::kType), text(datatype));
+}
+
 json::Value FromRdf::object(Id id) {
   json::Value result = json::Value::object(arena_);
   if (terms_.is_literal(id)) {
@@ -34,6 +63,9 @@ void FromRdf::literal(json::Value& result, Id id) {
   const std::string_view lexical = terms_.text(id);
   const std::string_view datatype = terms_.text(terms_.datatype(id));
   const std::string_view language = terms_.language(id);
+  if (style_.typed_native_values && language.empty() && datatype != rdf_name::kJson) {
+    return typed_native(result, id);
+  }
   if (options_.use_native_types && native(result, lexical, datatype)) return;
   if (directed(result, lexical, datatype)) return;
   if (datatype == rdf_name::kJson && options_.processing_mode == ProcessingMode::kJsonLd11) {
@@ -97,9 +129,9 @@ bool FromRdf::directed(json::Value& result, std::string_view lexical, std::strin
 // A node with rdf:value, rdf:direction and perhaps rdf:language, used once, is a string.
 void FromRdf::make_compound_literals(Graph& graph) {
   for (const Id id : graph.compound_literals) {
-    const auto usage = usages_.find(id);
+    const Usage* usage = only_usage(graph, id);
     const auto found = graph.nodes.find(id);
-    if (usage == usages_.end() || !usage->second || found == graph.nodes.end()) continue;
+    if (usage == nullptr || found == graph.nodes.end()) continue;
     const auto value_of = [&](std::string_view property) -> const json::Value* {
       const json::Value* values = found->second.find(property);
       if (values == nullptr || values->items().empty()) return nullptr;
@@ -117,7 +149,7 @@ void FromRdf::make_compound_literals(Graph& graph) {
       fail(code::kInvalidBaseDirection, {}, "", "rdf:direction is " + describe(*direction),
            "\"ltr\" or \"rtl\"");
     }
-    json::Value value = usage->second->value;
+    json::Value value = usage->value;
     value.erase(keyword::kId);
     value.add(arena_, keyword_value(keyword::kValue), *text);
     if (language != nullptr) value.add(arena_, keyword_value(keyword::kLanguage), *language);

@@ -25,9 +25,11 @@ using QuadSink = std::function<void(const graph::Quad&)>;
 
 // How numbers become literals.
 enum class Numbers : std::uint8_t {
-  kStandard,  // doubles in the canonical form of XML Schema, whatever their datatype
-  kExact,  // doubles in the shortest text that reads back to the same value, xsd:decimal as it is
-           // written
+  // Doubles in the canonical form of XML Schema, whatever their datatype.
+  kStandard,
+  // Doubles in the shortest text that reads back to the same value; xsd:decimal as it is written; a
+  // number with a point or an exponent is a double even if it is whole.
+  kExact,
 };
 
 struct ToRdfContext {

@@ -104,7 +104,8 @@ Id ToRdf::number_literal(const json::Value& number, std::string_view datatype) {
     if (!is_double && is_plain_integer(number.text())) {
       return terms_.literal(number.text(), datatype.empty() ? rdf_name::kInteger : datatype);
     }
-    if (is_double || (!whole && datatype.empty())) return terms_.real(value);
+    // "1.0" is meant as a real number, whatever the standard makes of it.
+    if (is_double || datatype.empty()) return terms_.real(value);
   }
   if (whole && !is_double) {
     return terms_.literal(integer_text(value), datatype.empty() ? rdf_name::kInteger : datatype);
