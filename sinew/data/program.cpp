@@ -18,7 +18,8 @@ struct Value {
 
 class Lowering {
  public:
-  Lowering(const Library& library, const Plan& plan) : library_(library) {
+  Lowering(const Library& library, const Plan& plan, const std::function<bool(Index)>& whole)
+      : library_(library), whole_(whole) {
     program_.blocks = {{"source", library.prototypes[plan.source].owner},
                        {"target", library.prototypes[plan.target].owner}};
     program_.stages.emplace_back();
@@ -109,7 +110,7 @@ class Lowering {
         return program_.graph.input(static_cast<std::uint32_t>(i));
       }
     }
-    program_.loads.push_back({block, access, label});
+    program_.loads.push_back({block, access, label, 0, 0});
     return program_.graph.input(static_cast<std::uint32_t>(program_.loads.size() - 1));
   }
 
@@ -143,14 +144,25 @@ class Lowering {
     std::vector<Node> inputs;
     for (const Value& value : state.values)
       inputs.push_back(affine(value.node, value.scale, value.offset));
-    const std::vector<Node> places = program_.graph.append(formula.graph, inputs);
+    std::vector<Node> results;
+    if (whole_ && whole_(edge.formula)) {
+      program_.formula_uses.push_back({edge.formula, std::move(inputs)});
+      for (Index i = 0; i < formula.outputs.size(); ++i) {
+        program_.loads.push_back(
+            {ConversionProgram::Load::kOfFormula, {}, {}, program_.formula_uses.size() - 1, i});
+        results.push_back(
+            program_.graph.input(static_cast<std::uint32_t>(program_.loads.size() - 1)));
+      }
+    } else {
+      const std::vector<Node> places = program_.graph.append(formula.graph, inputs);
+      for (const Node output : formula.outputs) results.push_back(places[output]);
+    }
     const Space& space = library_.spaces[edge.to];
     state.values.clear();
     std::size_t next = 0;
     for (const Space::Slot& slot : space.slots) {
-      state.values.push_back({slot.constant ? program_.graph.constant(*slot.constant)
-                                            : places[formula.outputs[next++]],
-                              1, 0});
+      state.values.push_back(
+          {slot.constant ? program_.graph.constant(*slot.constant) : results[next++], 1, 0});
     }
     state.space = edge.to;
   }
@@ -163,7 +175,7 @@ class Lowering {
   }
 
   void run_members(State& state, const PlanStep& step) {
-    const Space &from = library_.spaces[step.from], &to = library_.spaces[step.to];
+    const Space& from = library_.spaces[step.from];
     std::vector<Value> result;
     std::size_t first = 0;
     for (std::size_t m = 0; m < step.members.size(); ++m) {
@@ -176,7 +188,6 @@ class Lowering {
       result.insert(result.end(), part.values.begin(), part.values.end());
       first += count;
     }
-    (void)to;
     state.values = std::move(result);
     state.space = step.to;
   }
@@ -196,6 +207,7 @@ class Lowering {
   }
 
   const Library& library_;
+  const std::function<bool(Index)>& whole_;
   ConversionProgram program_;
 };
 
@@ -215,8 +227,9 @@ int ConversionProgram::operations() const {
   return count;
 }
 
-ConversionProgram lower(const Library& library, const Plan& plan) {
-  return Lowering(library, plan).take();
+ConversionProgram lower(const Library& library, const Plan& plan,
+                        const std::function<bool(Index)>& whole) {
+  return Lowering(library, plan, whole).take();
 }
 
 }  // namespace sinew::data
