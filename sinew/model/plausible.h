@@ -13,7 +13,7 @@ namespace sinew::model {
 // up to the second it is a warning, beyond an error. An eigenvalue of I itself that is negative is
 // an error from the same bound on.
 constexpr double kTriangleWarning = 1e-6;
-constexpr double kTriangleError = 0.5;
+constexpr double kTriangleError = 0.05;
 
 void check_inertias(const Structure& structure, const graph::Terms& terms,
                     const graph::Places& places, Report& report);

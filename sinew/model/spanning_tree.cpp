@@ -159,6 +159,15 @@ void report_loop(const Search& in, const SpanningTree& tree, int joint,
            "leave out one of them: kinematic loops cannot be solved yet");
 }
 
+void check_that_joints_move(const Search& in) {
+  for (const Structure::Joint& joint : in.structure.joints) {
+    if (joint.kind == JointKind::kFixed) continue;
+    if (in.bodies.of_frame[joint.parent] != in.bodies.of_frame[joint.child]) continue;
+    in.error(joint.iri, "the joint connects two frames of the same rigid body",
+             "remove the constant pose or the fixed joint that makes them one, or the joint");
+  }
+}
+
 // Depth first from the root, each body's joints in the order of the model.
 void walk(const Search& in, SpanningTree& tree) {
   std::vector<std::vector<int>> joints_of(in.bodies.count);
@@ -166,11 +175,6 @@ void walk(const Search& in, SpanningTree& tree) {
     const Structure::Joint& joint = in.structure.joints[j];
     if (joint.kind == JointKind::kFixed) continue;
     const int parent = in.bodies.of_frame[joint.parent], child = in.bodies.of_frame[joint.child];
-    if (parent == child) {
-      in.error(joint.iri, "the joint connects two frames of the same rigid body",
-               "remove the constant pose or the fixed joint that makes them one, or the joint");
-      continue;
-    }
     joints_of[parent].push_back(j);
     joints_of[child].push_back(j);
   }
@@ -293,7 +297,8 @@ SpanningTree find_spanning_tree(const Structure& structure, const RigidBodies& b
                                 Report& report) {
   const Search in{structure, bodies, terms, places, report};
   SpanningTree tree;
-  if (!choose_root(in, base, tree)) return tree;
+  check_that_joints_move(in);
+  if (report.has_errors() || !choose_root(in, base, tree)) return tree;
   walk(in, tree);
   prune(in, tips, tree);
   return tree;

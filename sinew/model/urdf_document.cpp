@@ -120,11 +120,14 @@ class Reader {
       skip();
       if (rest.starts_with('+') && !rest.starts_with("+-")) rest.remove_prefix(1);
       const auto [end, fault] = std::from_chars(rest.data(), rest.data() + rest.size(), *value);
-      // A number below the smallest double is zero.
-      if (fault == std::errc::result_out_of_range && std::abs(*value) < 1) *value = 0;
-      good = good && (fault == std::errc{} || *value == 0) && end != rest.data() &&
-             std::isfinite(*value);
-      rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+      const std::string_view number(rest.data(), static_cast<std::size_t>(end - rest.data()));
+      // A number below the smallest double is zero; one above the largest is none.
+      const bool tiny = fault == std::errc::result_out_of_range &&
+                        number.find_first_of("eE") != std::string_view::npos &&
+                        number.find('-', 1) != std::string_view::npos;
+      if (tiny) *value = 0;
+      good = good && (fault == std::errc{} || tiny) && std::isfinite(*value);
+      rest.remove_prefix(number.size());
       good = good && (rest.empty() || kSpace.find(rest.front()) != std::string_view::npos);
     }
     skip();

@@ -3,7 +3,7 @@
 //
 // Read here rather than by urdfdom, which keeps neither lines nor order, turns angles into
 // quaternions, and says what is wrong on a log instead of to its caller; the tests compare with it.
-// See docs/decisions/urdf.md.
+// See docs/decisions/0005-urdf-reader.md.
 //
 // Limits: kMaximumUrdfBytes; nesting as tinyxml2's (500). Beyond them, an error.
 #pragma once
