@@ -41,8 +41,13 @@ bool ShapeParser::at_most_one(Id node, Id property, const std::vector<Id>& value
 std::optional<bool> ShapeParser::boolean(Id node, Id property, Id value) {
   if (terms().is_literal(value) && terms().datatype(value) == v_.xsd_boolean) {
     const std::string_view text = terms().text(value);
-    if (text == "true" || text == "1") return true;
-    if (text == "false" || text == "0") return false;
+    if (text == "true") return true;
+    if (text == "false") return false;
+    if (text == "1" || text == "0") {
+      warn(node, property, fmt::format("{} is {}", name(property), name(value)),
+           "only the literal true switches it on: write true or false");
+      return false;
+    }
   }
   fault(node, property, fmt::format("{} is {}", name(property), name(value)),
         "it must be true or false, of type xsd:boolean");

@@ -40,9 +40,15 @@ class ShapeParser {
   std::shared_ptr<const Pattern> pattern(Id node, Id text);
 
   // ---- SHACL-SPARQL (parse_sparql.cpp) ----
+  struct CustomComponent;
   void find_custom_components();
   void sparql_constraint(Id node, Shape& shape, Id constraint);
   void custom_constraints(Id node, Shape& shape);
+  void custom_constraint(Id node, Shape& shape, const CustomComponent& component,
+                         const std::vector<Id>& values);
+  SparqlCheck new_check(Id shape, bool is_ask) const;
+  bool prepare(Id holder, Id property, const Shape& shape, SparqlCheck& check);
+  std::string prologue(Id node);
 
   // ---- values (parse_values.cpp): report what is wrong and give nothing ----
   bool at_most_one(Id node, Id property, const std::vector<Id>& values);
@@ -66,7 +72,6 @@ class ShapeParser {
   Report report_;
   std::size_t depth_ = 0;
 
-  struct CustomComponent;
   std::vector<std::shared_ptr<const CustomComponent>> custom_;
 };
 
