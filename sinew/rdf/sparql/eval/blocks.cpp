@@ -45,6 +45,7 @@ bool Evaluator::emit(Index index) {
     add_to_group(block, state);
     return true;
   }
+  space_.forget_labels();  // BNODE("x") is one node in one solution
   const std::size_t width = block.columns.size();
   for (std::size_t i = 0; i < width; ++i) state.row[i] = slots_[block.columns[i]];
   if (block.order.empty()) return deliver(block, state, {state.row.data(), width});

@@ -22,7 +22,8 @@ Evaluator::Evaluator(std::shared_ptr<const plan::Plan> plan)
       flags_(plan_->flag_count, 0),
       visited_(plan_->paths.visited_count),
       blocks_(plan_->blocks.size()),
-      tables_(plan_->tables.size()) {}
+      tables_(plan_->tables.size()),
+      regexes_(plan_->cache_count) {}
 
 Evaluator::~Evaluator() = default;
 
@@ -40,6 +41,7 @@ void Evaluator::begin(const graph::View& view, std::span<const Id> parameters,
   space_.begin(view.terms(), limits.computed_bytes);
   for (TableState& table : tables_) table.is_made = false;
   saved_.clear();
+  now_.reset();
   ticks_ = 0;
   path_steps_ = 0;
   has_deadline_ = limits.time.count() > 0;
@@ -72,6 +74,12 @@ void Evaluator::check_time() const {
   fail(fmt::format("the evaluation takes longer than {} ms",
                    std::chrono::duration_cast<std::chrono::milliseconds>(limits_.time).count()),
        "make the query more specific, or raise Limits::time");
+}
+
+void Evaluator::check_text_size(std::size_t bytes) const {
+  if (bytes <= limits_.computed_bytes) return;
+  fail(fmt::format("an expression makes a text of more than {} bytes", limits_.computed_bytes),
+       "make it shorter, or raise Limits::computed_bytes");
 }
 
 void Evaluator::fail(std::size_t offset, std::string what, std::string remedy) const {

@@ -8,7 +8,10 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
+#include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "sinew/graph/store.h"
@@ -18,6 +21,7 @@
 #include "sinew/rdf/sparql/eval/visited_set.h"
 #include "sinew/rdf/sparql/plan/plan.h"
 #include "sinew/rdf/sparql/syntax/limits.h"
+#include "sinew/rdf/sparql/values/regex.h"
 #include "sinew/rdf/sparql/values/value.h"
 
 namespace sinew::rdf::sparql::eval {
@@ -116,7 +120,24 @@ class Evaluator {
   Truth all_of(const plan::Expression& expression);
   Truth any_of(const plan::Expression& expression);
   Truth in_list(const plan::Expression& expression);
-  Value call_builtin(const plan::Expression& expression);
+  Value call_builtin(const plan::Expression& call);
+  Value test_term(const plan::Expression& call);
+  Value part_of_term(const plan::Expression& call);
+  Value make_term(const plan::Expression& call);
+  Value cast_function(const plan::Expression& call);
+  Value string_function(const plan::Expression& call);
+  Value concatenated(const plan::Expression& call);
+  Value regex_function(const plan::Expression& call);
+  Value digest_function(const plan::Expression& call);
+  Value number_function(const plan::Expression& call);
+  Value time_function(const plan::Expression& call);
+  Value now();
+  std::uint64_t random_bits();
+  std::string random_uuid();
+  // A string whose text lives until the expression is done.
+  Value kept_string(std::string_view text, std::string_view language = {});
+  Value made(Id id);
+  void check_text_size(std::size_t bytes) const;
 
   std::shared_ptr<const plan::Plan> plan_;
   graph::View view_;
@@ -132,6 +153,15 @@ class Evaluator {
   // The graph that a path is walked in.
   plan::GraphKind path_graph_kind_ = plan::GraphKind::kDefault;
   Slot path_graph_ = 0;
+
+  struct CachedRegex {
+    bool is_made = false;
+    std::string pattern, flags;
+    std::shared_ptr<const values::Regex> regex;
+  };
+  std::vector<CachedRegex> regexes_;
+  std::optional<std::mt19937_64> random_;  // seeded when it is first used
+  std::optional<Value> now_;
 
   std::uint64_t ticks_ = 0;
   bool has_deadline_ = false;

@@ -1,16 +1,10 @@
 #include <cmath>
 
 #include "sinew/rdf/sparql/values/operators.h"
+#include "sinew/rdf/sparql/values/time_arithmetic.h"
 
 namespace sinew::rdf::sparql::values {
 namespace {
-
-Value of_float(float value) {
-  Value result;
-  result.kind = ValueKind::kFloat;
-  result.real = value;
-  return result;
-}
 
 double real_of(const Value& value) {
   return value.kind == ValueKind::kInteger || value.kind == ValueKind::kDecimal
@@ -60,12 +54,13 @@ Value exact(Operator op, const Value& a, const Value& b) {
 }  // namespace
 
 Value arithmetic(Operator op, const Value& a, const Value& b) {
-  if (!a.is_numeric() || !b.is_numeric()) return Value::error();
+  if (!a.is_numeric() || !b.is_numeric()) return time_arithmetic(op, a, b);
   if (a.kind == ValueKind::kDouble || b.kind == ValueKind::kDouble) {
     return Value::of_double(compute(op, real_of(a), real_of(b)));
   }
   if (a.kind == ValueKind::kFloat || b.kind == ValueKind::kFloat) {
-    return of_float(compute(op, static_cast<float>(real_of(a)), static_cast<float>(real_of(b))));
+    return Value::of_float(
+        compute(op, static_cast<float>(real_of(a)), static_cast<float>(real_of(b))));
   }
   return exact(op, a, b);
 }

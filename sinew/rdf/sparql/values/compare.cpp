@@ -36,6 +36,10 @@ Order compare_numbers(const Value& a, const Value& b) {
   return left == right ? Order::kEqual : Order::kUnordered;
 }
 
+Truth is(TimeOrder wanted, TimeOrder order) {
+  return order == TimeOrder::kUnknown ? Truth::kError : truth(order == wanted);
+}
+
 bool same_language(std::string_view a, std::string_view b) {
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) {
            const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; };
@@ -78,6 +82,12 @@ Truth equals(const Value& a, const Value& b, const TermSpace& space) {
       return truth(a.text == b.text && same_language(a.language, b.language));
     case ValueKind::kBoolean:
       return truth(a.boolean == b.boolean);
+    case ValueKind::kDateTime:
+    case ValueKind::kDate:
+    case ValueKind::kTime:
+      return is(TimeOrder::kSame, compare(a.instant(), b.instant()));
+    case ValueKind::kDuration:
+      return truth(compare(a.duration(), b.duration()) == TimeOrder::kSame);
     default:
       return Truth::kError;
   }
@@ -91,6 +101,12 @@ Truth less(const Value& a, const Value& b) {
       return truth(a.text < b.text);
     case ValueKind::kBoolean:
       return truth(!a.boolean && b.boolean);
+    case ValueKind::kDateTime:
+    case ValueKind::kDate:
+    case ValueKind::kTime:
+      return is(TimeOrder::kBefore, compare(a.instant(), b.instant()));
+    case ValueKind::kDuration:
+      return is(TimeOrder::kBefore, compare(a.duration(), b.duration()));
     default:
       return Truth::kError;
   }

@@ -26,7 +26,10 @@ class TermSpace {
 
   graph::Id iri(std::string_view text);
   graph::Id blank();                        // a new one
-  graph::Id blank(std::string_view label);  // the same for the same label, within one evaluation
+  graph::Id blank(std::string_view label);  // the same for the same label, until they are forgotten
+  void forget_labels() {
+    if (!labels_.empty()) labels_.clear();
+  }
   graph::Id literal(std::string_view lexical, std::string_view datatype = {},
                     std::string_view language = {});
 

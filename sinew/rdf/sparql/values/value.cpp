@@ -37,6 +37,30 @@ Value Value::of_double(double value) {
   return result;
 }
 
+Value Value::of_float(float value) {
+  Value result;
+  result.kind = ValueKind::kFloat;
+  result.real = value;
+  return result;
+}
+
+Value Value::of_instant(ValueKind kind, const Instant& instant) {
+  Value result;
+  result.kind = kind;
+  result.decimal = instant.seconds;
+  result.zone_minutes = instant.zone_minutes;
+  return result;
+}
+
+Value Value::of_duration(const Duration& duration, Datatype type) {
+  Value result;
+  result.kind = ValueKind::kDuration;
+  result.months = duration.months;
+  result.decimal = duration.seconds;
+  result.type = type;
+  return result;
+}
+
 Value Value::of_string(std::string_view text, std::string_view language) {
   Value result;
   result.kind = language.empty() ? ValueKind::kString : ValueKind::kLangString;
@@ -46,6 +70,14 @@ Value Value::of_string(std::string_view text, std::string_view language) {
 }
 
 namespace {
+
+void read_instant(Value& value, ValueKind kind, Datatype type) {
+  const auto instant = parse_instant(value.text, type);
+  if (!instant) return;
+  value.kind = kind;
+  value.decimal = instant->seconds;
+  value.zone_minutes = instant->zone_minutes;
+}
 
 void read_literal(Value& value, std::string_view datatype) {
   value.kind = ValueKind::kOther;
@@ -89,7 +121,26 @@ void read_literal(Value& value, std::string_view datatype) {
         value.real = *number;
       }
       break;
-    default:
+    case Datatype::kDateTime:
+      read_instant(value, ValueKind::kDateTime, Datatype::kDateTime);
+      break;
+    case Datatype::kDate:
+      read_instant(value, ValueKind::kDate, Datatype::kDate);
+      break;
+    case Datatype::kTime:
+      read_instant(value, ValueKind::kTime, Datatype::kTime);
+      break;
+    case Datatype::kDuration:
+    case Datatype::kDayTimeDuration:
+    case Datatype::kYearMonthDuration:
+      value.type = datatype_of(datatype);
+      if (const auto duration = parse_duration(value.text, value.type)) {
+        value.kind = ValueKind::kDuration;
+        value.months = duration->months;
+        value.decimal = duration->seconds;
+      }
+      break;
+    case Datatype::kOther:
       break;
   }
 }
@@ -144,6 +195,14 @@ Id term_of(const Value& value, TermSpace& space) {
       return space.literal(float_text(static_cast<float>(value.real)), kXsdFloat);
     case ValueKind::kDouble:
       return space.literal(double_text(value.real), kXsdDouble);
+    case ValueKind::kDateTime:
+      return space.literal(to_string(value.instant(), Datatype::kDateTime), kXsdDateTime);
+    case ValueKind::kDate:
+      return space.literal(to_string(value.instant(), Datatype::kDate), kXsdDate);
+    case ValueKind::kTime:
+      return space.literal(to_string(value.instant(), Datatype::kTime), kXsdTime);
+    case ValueKind::kDuration:
+      return space.literal(to_string(value.duration(), value.type), iri_of(value.type));
     case ValueKind::kOther:
       return space.literal(value.text, value.datatype);
   }

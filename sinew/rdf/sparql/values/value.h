@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "sinew/graph/terms.h"
+#include "sinew/rdf/sparql/values/date_time.h"
 #include "sinew/rdf/sparql/values/decimal.h"
 #include "sinew/rdf/sparql/values/term_space.h"
 #include "sinew/rdf/sparql/values/xsd.h"
@@ -26,14 +27,21 @@ enum class ValueKind : std::uint8_t {
   kDecimal,  // decimal
   kFloat,
   kDouble,  // real
-  kOther,   // a literal of a datatype we do not compute with, or one that is ill-typed
+  kDateTime,
+  kDate,
+  kTime,      // an instant: decimal (seconds), zone_minutes
+  kDuration,  // months, decimal (seconds), type
+  kOther,     // a literal of a datatype we do not compute with, or one that is ill-typed
 };
 
 struct Value {
   ValueKind kind = ValueKind::kError;
   bool boolean = false;
-  graph::Id id = {};  // the term it was made from, else null
+  graph::Id id = {};                 // the term it was made from, else null
+  Datatype type = Datatype::kOther;  // kDuration: which of the three
+  int zone_minutes = Instant::kNoZone;
   double real = 0;
+  std::int64_t months = 0;
   Decimal decimal;
   // kString, kLangString; of computed IRIs; the lexical form of literals that have an id. For the
   // text of any IRI use text_of: a derived node's is only made when it is asked for.
@@ -44,12 +52,18 @@ struct Value {
   explicit operator bool() const { return kind != ValueKind::kError; }
   bool is_numeric() const { return kind >= ValueKind::kInteger && kind <= ValueKind::kDouble; }
   bool is_literal() const { return kind >= ValueKind::kString; }
+  bool is_instant() const { return kind >= ValueKind::kDateTime && kind <= ValueKind::kTime; }
+  Instant instant() const { return {decimal, zone_minutes}; }
+  Duration duration() const { return {months, decimal}; }
 
   static Value error() { return {}; }
   static Value of(bool value);
   static Value of_integer(std::int64_t value);
   static Value of_decimal(const Decimal& value);
   static Value of_double(double value);
+  static Value of_float(float value);
+  static Value of_instant(ValueKind kind, const Instant& instant);
+  static Value of_duration(const Duration& duration, Datatype type);
   static Value of_string(std::string_view text, std::string_view language = {});
 };
 

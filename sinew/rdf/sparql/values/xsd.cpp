@@ -44,4 +44,38 @@ Datatype datatype_of(std::string_view iri) {
   return Datatype::kOther;
 }
 
+std::string_view iri_of(Datatype datatype) {
+  switch (datatype) {
+    case Datatype::kString:
+      return kXsdString;
+    case Datatype::kLangString:
+      return kRdfLangString;
+    case Datatype::kBoolean:
+      return kXsdBoolean;
+    case Datatype::kInteger:
+      return kXsdInteger;
+    case Datatype::kDecimal:
+      return kXsdDecimal;
+    case Datatype::kFloat:
+      return kXsdFloat;
+    case Datatype::kDouble:
+      return kXsdDouble;
+    case Datatype::kDateTime:
+      return kXsdDateTime;
+    case Datatype::kDate:
+      return kXsdDate;
+    case Datatype::kTime:
+      return kXsdTime;
+    case Datatype::kDuration:
+      return kXsdDuration;
+    case Datatype::kDayTimeDuration:
+      return kXsdDayTimeDuration;
+    case Datatype::kYearMonthDuration:
+      return kXsdYearMonthDuration;
+    case Datatype::kOther:
+      break;
+  }
+  return {};
+}
+
 }  // namespace sinew::rdf::sparql::values

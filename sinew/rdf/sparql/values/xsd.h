@@ -43,5 +43,7 @@ enum class Datatype : std::uint8_t {
 
 // Subtypes of xsd:integer are kInteger; all that is not listed is kOther.
 Datatype datatype_of(std::string_view iri);
+// Of any but kOther.
+std::string_view iri_of(Datatype datatype);
 
 }  // namespace sinew::rdf::sparql::values
