@@ -156,8 +156,8 @@ Template Parser::quads(TripleMode mode) {
   expect("}", "close the triples");
   result.blank_count = template_blanks_;
   if (mode == TripleMode::kTemplate) {
-    template_labels_.clear();
     labels_.swap(template_labels_);
+    template_labels_.clear();
   }
   triple_mode_ = TripleMode::kPattern;
   return result;
