@@ -105,15 +105,23 @@ void NodeMap::add_list(const json::Value& element, const Site& site) {
 
 void NodeMap::add_node(const json::Value& element, const Site& site) {
   const json::Value* given = element.find(keyword::kId);
-  const bool has_id = given != nullptr && given->is_string();
-  const json::Value id = has_id ? label(*given) : new_label(element.position());
   Site at = site;
-  json::Value node = node_in(at.graph, id);
   const auto reference_to = [&](const json::Value& target) {
     json::Value reference = json::Value::object(arena_, target.position());
     reference.add(arena_, keyword_value(keyword::kId), target);
     return reference;
   };
+  if (given != nullptr && given->is_null()) {
+    // An identifier that means nothing: there is no node to say anything about.
+    if (!at.list.is_null()) {
+      at.list.append(arena_, reference_to(*given));
+    } else if (!at.subject.is_null() && !at.reverse) {
+      add_new(at.subject, at.property, reference_to(*given));
+    }
+    return;
+  }
+  const json::Value id = given == nullptr ? new_label(element.position()) : label(*given);
+  json::Value node = node_in(at.graph, id);
   if (at.reverse) {
     add_new(node, at.property, reference_to(*at.subject.find(keyword::kId)));
   } else if (!at.list.is_null()) {

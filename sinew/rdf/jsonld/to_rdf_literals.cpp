@@ -20,17 +20,17 @@ using graph::Id;
 // 10).
 constexpr double kIntegerLimit = 1e21;
 
-// The canonical form of xsd:double: one digit before the point, at least one behind it, an exponent
-// without sign or zeros that it does not need.
+// The canonical form of xsd:double, as section 8.6 has it: one digit before the point, at most 15
+// and at least one behind it, an exponent without sign or zeros that it does not need.
 std::string canonical_double(double value) {
   if (std::isinf(value)) return value < 0 ? "-INF" : "INF";
   std::array<char, 32> buffer;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                 std::chars_format::scientific);
+                                 std::chars_format::scientific, 15);
   const std::string_view text(buffer.data(), static_cast<std::size_t>(end.ptr - buffer.data()));
   const std::size_t e = text.find('e');
   std::string result(text.substr(0, e));
-  if (result.find('.') == std::string::npos) result += ".0";
+  while (result.ends_with('0') && !result.ends_with(".0")) result.pop_back();
   int exponent = 0;
   const char* sign = text.data() + e + 1;
   std::from_chars(*sign == '+' ? sign + 1 : sign, end.ptr, exponent);
