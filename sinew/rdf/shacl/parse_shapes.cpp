@@ -60,18 +60,18 @@ ShapeIndex ShapeParser::shape(Id node) {
   if (!is_new) return known->second;
   out_.shapes.emplace_back();
   out_.shapes.back().node = node;
-  if (depth_ == kMaxShapeDepth) {
+  if (open_.size() == kMaxShapeDepth) {
     fault(node, {}, fmt::format("shapes are nested deeper than {}", kMaxShapeDepth),
           "declare the inner ones as sh:NodeShape or sh:PropertyShape of their own");
     return index;
   }
-  ++depth_;
+  open_.push_back(node);
   // Filled aside, because `shapes` grows meanwhile.
   Shape filled;
   filled.node = node;
   fill(node, filled);
   out_.shapes[index] = std::move(filled);
-  --depth_;
+  open_.pop_back();
   return index;
 }
 

@@ -7,14 +7,22 @@
 
 namespace sinew::rdf::shacl {
 
+Place ShapeParser::place(Id node, Id property) const {
+  if (!places_) return {};
+  Place found = places_->find(node, property);
+  for (auto shape = open_.rbegin(); found.file.empty() && shape != open_.rend(); ++shape) {
+    found = places_->find(*shape);
+  }
+  return found;
+}
+
 void ShapeParser::fault(Id node, Id property, std::string what, std::string remedy) {
-  report_.error(places_ ? places_->find(node, property) : Place{}, name(node), std::move(what),
-                std::move(remedy));
+  report_.error(place(node, property), name(node), std::move(what), std::move(remedy));
 }
 
 void ShapeParser::warn(Id node, Id property, std::string what, std::string remedy) {
   Problem problem;
-  if (places_) problem.place = places_->find(node, property);
+  problem.place = place(node, property);
   problem.iri = name(node);
   problem.what = std::move(what);
   problem.remedy = std::move(remedy);

@@ -59,6 +59,8 @@ class ShapeParser {
   bool is_string(Id node, Id property, Id value, bool or_lang_string);
   std::vector<Message> messages(Id node);
 
+  // Of the property, else of the node, else of the innermost shape around it.
+  Place place(Id node, Id property) const;
   void fault(Id node, Id property, std::string what, std::string remedy);
   void warn(Id node, Id property, std::string what, std::string remedy);
   std::string name(Id id) const;  // short, for messages
@@ -70,7 +72,7 @@ class ShapeParser {
   Shapes out_;
   const Vocabulary& v_;
   Report report_;
-  std::size_t depth_ = 0;
+  std::vector<Id> open_;  // shapes that are being parsed, each inside the one before
 
   std::vector<std::shared_ptr<const CustomComponent>> custom_;
 };
