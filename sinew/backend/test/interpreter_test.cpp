@@ -3,9 +3,25 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <new>
 #include <random>
 
 #include "serial_chain.h"
+#include "sinew/base/error.h"
+
+// Every allocation of this test program is counted.
+namespace {
+std::size_t allocations = 0;
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace sinew {
 namespace {
@@ -33,6 +49,22 @@ TEST(Interpreter, AgreesWithDenseTextbookInverseDynamics) {
     // Outputs are in the order of the program's variables: the last joint's force was made first.
     for (std::size_t k = 0; k < 7; ++k) EXPECT_NEAR(out[6 - k], expected[k], 1e-11) << k;
   }
+}
+
+TEST(Interpreter, TakesNoMemoryWhileItEvaluates) {
+  backend::Interpreter interpreter(test::inverse_dynamics(test::mixed_chain()));
+  const std::vector<double> in = random_inputs(21, 1);
+  std::vector<double> out(7);
+  const std::size_t before = allocations;
+  for (int k = 0; k < 100; ++k) interpreter.evaluate(in.data(), out.data());
+  interpreter.reset();
+  EXPECT_EQ(allocations, before);
+}
+
+TEST(Interpreter, RefusesAProgramThatIsNotValid) {
+  program::Program program = test::inverse_dynamics(test::mixed_chain());
+  std::swap(program.schedule.front(), program.schedule.back());
+  EXPECT_THROW(backend::Interpreter{program}, Error);
 }
 
 TEST(Interpreter, CarriesStatesFromOneEvaluationToTheNext) {
