@@ -105,5 +105,39 @@ TEST(PublishedGen3, HasItsRootOnTheLinkAndNotOnTheWorld) {
   EXPECT_EQ(model.tree.bodies[0].links.size(), 2u);  // the world is fixed to it
 }
 
+// Our own files of the same robot, one concern each.
+std::vector<std::filesystem::path> own_gen3() {
+  const std::filesystem::path folder = std::filesystem::path(SINEW_SOURCE_DIR) / "robots/gen3";
+  return {folder / "geometry.jsonld", folder / "chain.jsonld", folder / "dynamics.jsonld",
+          folder / "limits.jsonld", folder / "mounting-upright.jsonld"};
+}
+
+TEST(OwnGen3, GivesTheReferenceTorquesAndPoses) {
+  Model model;
+  load_and_normalise(model, own_gen3());
+  expect_the_reference(model);
+  EXPECT_TRUE(model.report.problems().empty()) << model.problems();
+}
+
+TEST(OwnGen3, HasLimits) {
+  Model model;
+  load_and_normalise(model, own_gen3());
+  ASSERT_EQ(model.tree.joints.size(), 7u) << model.problems();
+  EXPECT_EQ(model.tree.joints[3].limits.upper, 2.57);
+  EXPECT_TRUE(std::isnan(model.tree.joints[0].limits.upper));  // it turns without end
+  EXPECT_EQ(model.tree.joints[6].limits.maximum_force, 9);
+}
+
+TEST(OwnGen3, NeedsNoDynamicsForKinematics) {
+  auto files = own_gen3();
+  files.erase(files.begin() + 2);  // dynamics
+  Model model;
+  load_and_normalise(model, files);
+  ASSERT_FALSE(model.report.has_errors()) << model.problems();
+  const Dynamics result = newton_euler(model.tree, states()[1].motion);
+  const Pose X = pose_of(model.tree, result, model.frame("/link7-root")->iri);
+  EXPECT_NEAR(X.p.x, states()[1].p.x, 1e-15);
+}
+
 }  // namespace
 }  // namespace sinew::model::test
