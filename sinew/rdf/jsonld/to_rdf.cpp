@@ -14,6 +14,8 @@ using graph::Id;
 
 namespace {
 
+constexpr std::string_view kPropertyRole = "property";
+
 std::optional<std::string> fault(std::string_view text) {
   const std::size_t fragment = text.find('#');
   if (fragment != std::string_view::npos &&
@@ -55,7 +57,9 @@ Id ToRdf::blank(std::string_view label) {
 Id ToRdf::iri(std::string_view text, json::Position position, std::string_view role, Id subject) {
   const std::optional<std::string> wrong = fault(text);
   if (!wrong) return terms_.iri(text);
-  if (context_.check != nullptr) {
+  // Expansion has reported identifiers and types that are relative.
+  const bool known = !rdf::is_absolute_iri(text) && role != kPropertyRole;
+  if (context_.check != nullptr && !known) {
     context_.check->dropped_quad(
         place_in(context_.source, position),
         subject ? std::string(terms_.text(subject)) : std::string(text),
@@ -66,7 +70,7 @@ Id ToRdf::iri(std::string_view text, json::Position position, std::string_view r
 }
 
 Id ToRdf::predicate(std::string_view text, json::Position position, Id subject) {
-  if (!is_blank_node(text)) return iri(text, position, "property", subject);
+  if (!is_blank_node(text)) return iri(text, position, kPropertyRole, subject);
   if (context_.options.produce_generalized_rdf) return blank(text);
   if (context_.check != nullptr) {
     context_.check->dropped_quad(
