@@ -49,10 +49,13 @@ std::string remove_dot_segments(std::string_view path) {
 
 // RFC 3986, section 5.2.3.
 std::string merge_paths(const IriParts& base, std::string_view reference_path) {
-  if (base.authority && base.path.empty()) return "/" + std::string(reference_path);
-  const std::size_t slash = base.path.rfind('/');
-  if (slash == std::string_view::npos) return std::string(reference_path);
-  return std::string(base.path.substr(0, slash + 1)) + std::string(reference_path);
+  std::string merged;
+  if (base.authority && base.path.empty()) {
+    merged = "/";
+  } else if (const std::size_t slash = base.path.rfind('/'); slash != std::string_view::npos) {
+    merged = base.path.substr(0, slash + 1);
+  }
+  return merged.append(reference_path);
 }
 
 // The path of `target` as seen from the directory of `base`; both begin with '/'.

@@ -25,17 +25,18 @@ bool mentions_blank(const Quad& quad, const graph::Terms& terms) {
 }
 
 std::string line(const Quad& quad, const graph::Terms& terms) {
-  std::string text = terms.to_string(quad.subject) + " " + terms.to_string(quad.predicate) + " " +
-                     terms.to_string(quad.object);
-  if (quad.graph) text += " " + terms.to_string(quad.graph);
-  return text + " .";
+  std::string text;
+  for (const Id id : {quad.subject, quad.predicate, quad.object, quad.graph}) {
+    if (id) text.append(terms.to_string(id)).append(" ");
+  }
+  return text += '.';
 }
 
 std::string list(const char* heading, std::span<const Quad> quads, const graph::Terms& terms) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(quads.size(), kQuadsToShow); ++i) {
-    text +=
-        fmt::format("{}  {}", i == 0 ? std::string(heading) + "\n" : "\n", line(quads[i], terms));
+  if (quads.empty()) return {};
+  std::string text = heading;
+  for (const Quad& quad : quads.first(std::min(quads.size(), kQuadsToShow))) {
+    text += fmt::format("\n  {}", line(quad, terms));
   }
   if (quads.size() > kQuadsToShow) {
     text += fmt::format("\n  and {} more", quads.size() - kQuadsToShow);

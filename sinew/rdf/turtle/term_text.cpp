@@ -43,12 +43,11 @@ void append_long_quoted(std::string& out, std::string_view value) {
 
 void append_iri(std::string& out, std::string_view iri) {
   if (const auto fault = fault_of_iri(iri)) {
-    throw Error(Problem{{},
-                        std::string(iri),
-                        *fault + " and cannot be written",
-                        "percent-encode such characters, and resolve relative IRIs first",
-                        Severity::kError,
-                        {}});
+    Problem problem;
+    problem.iri = iri;
+    problem.what = *fault + " and cannot be written";
+    problem.remedy = "percent-encode such characters, and resolve relative IRIs first";
+    throw Error(std::move(problem));
   }
   out.append("<").append(iri).append(">");
 }

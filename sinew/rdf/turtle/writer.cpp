@@ -19,12 +19,11 @@ void refuse_graphs(std::span<const Quad> quads, const char* name, const char* ot
                    const graph::Terms& terms) {
   const auto named = std::ranges::find_if(quads, [](const Quad& quad) { return bool(quad.graph); });
   if (named == quads.end()) return;
-  throw Error(Problem{{},
-                      std::string(terms.text(named->graph)),
-                      fmt::format("{} has no named graphs, and this is one", name),
-                      fmt::format("write {}, or choose one graph", other),
-                      Severity::kError,
-                      {}});
+  Problem problem;
+  problem.iri = terms.text(named->graph);
+  problem.what = fmt::format("{} has no named graphs, and this is one", name);
+  problem.remedy = fmt::format("write {}, or choose one graph", other);
+  throw Error(std::move(problem));
 }
 
 // One statement a line. Blank nodes are numbered in the order in which they appear, or, where the

@@ -133,14 +133,14 @@ class SparqlSuite {
   static std::string compare(const sparql::Answer& answer, const Expected& expected,
                              std::optional<ResultFormat> format, graph::Terms& terms) {
     if (expected.is_graph) {
-      return compare_quads(with_plain_numbers(answer.triples, terms),
-                           with_plain_numbers(expected.graph, terms), terms)
+      return compare_quads(with_plain_literals(answer.triples, terms),
+                           with_plain_literals(expected.graph, terms), terms)
           .difference;
     }
-    const ResultSet right = with_plain_numbers(expected.results, terms);
+    const ResultSet right = with_plain_literals(expected.results, terms);
     // CSV does not tell terms apart: an answer is only comparable after it has been written as CSV.
     if (format != ResultFormat::kCsv) {
-      const Comparison same = compare_results(with_plain_numbers(answer.results, terms), right,
+      const Comparison same = compare_results(with_plain_literals(answer.results, terms), right,
                                               expected.ordered, terms);
       if (!same) return same.difference;
     }
@@ -148,7 +148,7 @@ class SparqlSuite {
     const std::string written = write_results(answer.results, *format, terms);
     const ResultSet again = read_results(written, *format, "what we wrote", terms);
     const Comparison same =
-        compare_results(with_plain_numbers(again, terms), right, expected.ordered, terms);
+        compare_results(with_plain_literals(again, terms), right, expected.ordered, terms);
     return same ? "" : "after writing and reading: " + same.difference;
   }
 
@@ -178,8 +178,8 @@ class SparqlSuite {
       const std::vector<Quad> part = read_graph(file, graph, store.terms());
       expected.insert(expected.end(), part.begin(), part.end());
     });
-    return compare_quads(with_plain_numbers(quads_of(store.view()), store.terms()),
-                         with_plain_numbers(expected, store.terms()), store.terms())
+    return compare_quads(with_plain_literals(quads_of(store.view()), store.terms()),
+                         with_plain_literals(expected, store.terms()), store.terms())
         .difference;
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "rdfxml.h"
 #include "report.h"
@@ -72,8 +73,13 @@ class ResultGraph {
   graph::Terms& terms_;
 };
 
-Id with_plain_number(Id id, graph::Terms& terms) {
+Id with_plain_literal(Id id, graph::Terms& terms) {
   if (!id || !terms.is_literal(id)) return id;
+  if (const std::string_view language = terms.language(id); !language.empty()) {
+    std::string tag(language);
+    std::ranges::transform(tag, tag.begin(), [](unsigned char c) { return std::tolower(c); });
+    return terms.literal(terms.text(id), {}, tag);
+  }
   const auto number = terms.number(id);
   const std::string_view datatype = terms.text(terms.datatype(id));
   const bool fractional = datatype.ends_with("#decimal") || datatype.ends_with("#double") ||
@@ -106,17 +112,17 @@ Expected read_expected(const std::filesystem::path& file, graph::Terms& terms) {
   return expected;
 }
 
-ResultSet with_plain_numbers(const ResultSet& results, graph::Terms& terms) {
+ResultSet with_plain_literals(const ResultSet& results, graph::Terms& terms) {
   ResultSet plain = results;
   for (auto& row : plain.rows) {
-    for (Id& id : row) id = with_plain_number(id, terms);
+    for (Id& id : row) id = with_plain_literal(id, terms);
   }
   return plain;
 }
 
-std::vector<Quad> with_plain_numbers(const std::vector<Quad>& quads, graph::Terms& terms) {
+std::vector<Quad> with_plain_literals(const std::vector<Quad>& quads, graph::Terms& terms) {
   std::vector<Quad> plain = quads;
-  for (Quad& quad : plain) quad.object = with_plain_number(quad.object, terms);
+  for (Quad& quad : plain) quad.object = with_plain_literal(quad.object, terms);
   return plain;
 }
 

@@ -24,10 +24,12 @@ struct Expected {
 // http://www.w3.org/2001/sw/DataAccess/tests/result-set#.
 Expected read_expected(const std::filesystem::path& file, graph::Terms& terms);
 
-// The same rows with every decimal, float and double in one form for each value: the standard
-// leaves open whether a sum is written 2, 2.0 or 2.0E0, and the suite's files are not of one mind.
-ResultSet with_plain_numbers(const ResultSet& results, graph::Terms& terms);
-std::vector<graph::Quad> with_plain_numbers(const std::vector<graph::Quad>& quads,
-                                            graph::Terms& terms);
+// The same rows with every decimal, float and double in one form for each value, because the
+// standard leaves open whether a sum is written 2, 2.0 or 2.0E0; and with language tags in lower
+// case, because an implementation may keep them as they are or convert them (RDF 1.1 Concepts,
+// section 3.3).
+ResultSet with_plain_literals(const ResultSet& results, graph::Terms& terms);
+std::vector<graph::Quad> with_plain_literals(const std::vector<graph::Quad>& quads,
+                                             graph::Terms& terms);
 
 }  // namespace sinew::rdf::w3c
