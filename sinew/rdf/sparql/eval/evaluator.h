@@ -84,6 +84,7 @@ class Evaluator {
   bool match_path(const plan::Op& op);
   bool path_in_graph(const plan::Op& op);
   bool path_from_everywhere(const plan::Op& op);
+  bool is_node(Id id);
   bool walk(std::uint32_t step, Id from, NodeVisitor visit);
   bool walk_sequence(const plan::PathStep& step, std::uint32_t part, Id from, NodeVisitor visit);
   bool walk_closure(const plan::PathStep& step, Id from, NodeVisitor visit);

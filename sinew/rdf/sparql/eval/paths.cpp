@@ -38,6 +38,11 @@ bool Evaluator::path_in_graph(const Op& op) {
   const Id subject = slots_[op.subject];
   const Id object = slots_[op.object];
   if (!subject && !object) return path_from_everywhere(op);
+  // A term that is bound elsewhere and is in no triple: not even a path of no steps matches it.
+  if (op.nodes_only && plan_->paths.steps[roots.forward].matches_zero &&
+      !is_node(subject ? subject : object)) {
+    return true;
+  }
   if (subject && object) {
     const Kind kind = plan_->paths.steps[roots.forward].kind;
     const bool at_most_once =
@@ -79,6 +84,12 @@ bool Evaluator::path_from_everywhere(const Op& op) {
   }
   slots_[op.subject] = {};
   return go_on;
+}
+
+bool Evaluator::is_node(Id id) {
+  const auto found = [](const graph::Quad&) { return false; };
+  return !match(path_graph_kind_, path_graph_, id, {}, {}, found) ||
+         !match(path_graph_kind_, path_graph_, {}, {}, id, found);
 }
 
 // Every node from which the path could begin.

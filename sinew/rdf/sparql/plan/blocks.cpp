@@ -137,32 +137,6 @@ Index Planner::block(const algebra::Select& select, const Context& context) {
   return number;
 }
 
-// The evaluator recurses along the chain of operators.
-void Planner::check_depth() const {
-  std::vector<std::uint32_t> depth(plan_->ops.size() + 1, 0);
-  for (std::size_t i = plan_->ops.size(); i-- > 0;) {
-    const Op& op = plan_->ops[i];
-    std::uint32_t deepest = op.next < depth.size() ? depth[op.next] : 0;
-    if (op.kind == OpKind::kUnion) {
-      for (Index k = 0; k < op.item; ++k) {
-        deepest = std::max(deepest, depth[plan_->branches[op.body + k]]);
-      }
-    } else if (op.body != kNone) {
-      deepest = std::max(deepest, depth[op.body]);
-    }
-    depth[i] = deepest + 1;
-    if (depth[i] > kMaximumChain) {
-      throw Error(Problem{
-          plan_->source ? plan_->source->place(0) : Place{},
-          {},
-          fmt::format("a solution would pass through more than {} operators", kMaximumChain),
-          "split the query into several",
-          Severity::kError,
-          {}});
-    }
-  }
-}
-
 std::shared_ptr<const Plan> Planner::run() {
   Context context;
   for (const Variable parameter : query_.parameters) {

@@ -87,6 +87,10 @@ void Planner::emit_triple(const Item& item, const Context& context) {
                (op.graph_kind == GraphKind::kNamed &&
                 (op.graph == subject || op.graph == object || (!is_path && op.graph == predicate)));
   if (is_path) {
+    const auto varies = [&](algebra::Node node) {
+      return node.is_variable && !context.constants.has(node.value);
+    };
+    op.nodes_only = varies(triple.subject) && varies(triple.object);
     op.item = static_cast<Index>(plan_->path_roots.size());
     plan_->path_roots.push_back(compile_path(*triple.path, plan_->paths));
   }

@@ -49,6 +49,8 @@ struct Op {
   OpKind kind = OpKind::kEmit;
   GraphKind graph_kind = GraphKind::kDefault;
   bool negated = false;  // kExists, kDiffer
+  // kPath: both ends are variables, so that a path of no steps only matches nodes of the graph.
+  bool nodes_only = false;
   bool repeats = false;  // kMatch, kPath: a slot stands in two places
   // kMatch: positions (1 subject, 2 predicate, 4 object, 8 graph) that are surely unbound before.
   std::uint8_t free = 0;

@@ -70,7 +70,7 @@ class Planner {
  private:
   // --- blocks.cpp ---
   Index block(const algebra::Select& select, const Context& context);
-  void check_depth() const;
+  void check_depth() const;  // depth.cpp
   Slot slot(Variable variable, const Context& context);
   Slot fresh_slot(std::string name);
   Slot constant(graph::Id id);
@@ -95,7 +95,8 @@ class Planner {
   // --- schedule.cpp ---
   void order_and_emit(std::vector<Item>& items, Context context);
   VariableSet visible_to(const Item& item) const;
-  bool ready(const Item& item, const std::vector<Item>& items, const Context& context) const;
+  bool ready(const Item& item, const std::vector<Item>& items, std::size_t first_undone,
+             const Context& context) const;
   double cost(const Item& item, const Context& context);
 
   // --- estimate.cpp ---

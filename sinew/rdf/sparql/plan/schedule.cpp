@@ -26,11 +26,9 @@ int rank(const Item& item) {
 
 }  // namespace
 
-bool Planner::ready(const Item& item, const std::vector<Item>& items,
+bool Planner::ready(const Item& item, const std::vector<Item>& items, std::size_t first_undone,
                     const Context& context) const {
-  for (std::size_t i = 0; i < item.barrier; ++i) {
-    if (!items[i].done) return false;
-  }
+  if (item.barrier > first_undone) return false;
   return std::all_of(item.needs.begin(), item.needs.end(), [&](Variable variable) {
     if (context.bound.has(variable)) return true;
     for (std::size_t i = item.scope_begin; i < item.scope_end; ++i) {
@@ -41,12 +39,19 @@ bool Planner::ready(const Item& item, const std::vector<Item>& items,
 }
 
 void Planner::order_and_emit(std::vector<Item>& items, Context context) {
+  // Of very many items only the next ones in the text are looked at, so that planning stays short.
+  constexpr std::size_t kWindow = 200;
+  std::size_t first_undone = 0;
   for (std::size_t left = items.size(); left > 0; --left) {
+    while (items[first_undone].done) ++first_undone;
     Item* best = nullptr;
     int best_rank = 0;
     double best_cost = 0;
-    for (Item& item : items) {
+    std::size_t looked_at = 0;
+    for (std::size_t i = first_undone; i < items.size(); ++i) {
+      Item& item = items[i];
       if (item.done) continue;
+      if (++looked_at > kWindow && best) break;
       int item_rank = rank(item);
       // A value that others wait for comes before the patterns that could use it.
       if (item.kind == Item::Kind::kExtend) {
@@ -56,7 +61,7 @@ void Planner::order_and_emit(std::vector<Item>& items, Context context) {
         if (used) item_rank = 2;
       }
       if (best && item_rank > best_rank) continue;
-      if (!ready(item, items, context)) continue;
+      if (!ready(item, items, first_undone, context)) continue;
       const double item_cost = item_rank == 3 ? cost(item, context) : 0;
       if (best && item_rank == best_rank && item_cost >= best_cost) continue;
       best = &item;
