@@ -8,6 +8,7 @@
 
 #include "sinew/rdf/shacl/literals.h"
 #include "sinew/rdf/shacl/validator.h"
+#include "sinew/rdf/sparql/values/strings.h"
 
 namespace sinew::rdf::shacl {
 namespace {
@@ -21,7 +22,7 @@ void unique_lang(Check& check) {
   std::map<std::string, int> uses;
   for (const Id value : check.values) {
     const std::string_view language = terms.language(value);
-    if (!language.empty()) ++uses[to_lower(language)];
+    if (!language.empty()) ++uses[sparql::values::lower_case(language)];
   }
   for (const auto& [language, count] : uses) {
     if (count < 2) continue;
@@ -62,7 +63,7 @@ void less_than(Check& check, std::span<const Id> others, const std::string& othe
   const bool or_equal = check.constraint.component == Component::kLessThanOrEquals;
   for (const Id value : check.values) {
     for (const Id bound : others) {
-      const std::partial_ordering order = compare_values(value, bound, check.validator.terms());
+      const std::partial_ordering order = compare_values(value, bound, check.validator.values());
       if (order < 0 || (or_equal && order == 0)) continue;
       check.violation(
           value,

@@ -6,11 +6,13 @@
 #include <string_view>
 
 #include "sinew/rdf/shacl/literals.h"
-#include "sinew/rdf/shacl/pattern.h"
 #include "sinew/rdf/shacl/validator.h"
+#include "sinew/rdf/sparql/values/strings.h"
 
 namespace sinew::rdf::shacl {
 namespace {
+
+namespace values = sparql::values;
 
 bool has_node_kind(const graph::Terms& terms, Id value, Id kind) {
   const std::string_view name = terms.text(kind).substr(kSh.size());
@@ -24,6 +26,7 @@ bool has_node_kind(const graph::Terms& terms, Id value, Id kind) {
 
 bool passes(Check& check, Id value) {
   const graph::Terms& terms = check.validator.terms();
+  const values::TermSpace& space = check.validator.values();
   const Constraint& constraint = check.constraint;
   const Id parameter = constraint.values.empty() ? Id{} : constraint.values[0];
   switch (constraint.component) {
@@ -35,25 +38,28 @@ bool passes(Check& check, Id value) {
     case Component::kNodeKind:
       return has_node_kind(terms, value, parameter);
     case Component::kMinExclusive:
-      return compare_values(parameter, value, terms) < 0;
+      return compare_values(parameter, value, space) < 0;
     case Component::kMinInclusive:
-      return compare_values(parameter, value, terms) <= 0;
+      return compare_values(parameter, value, space) <= 0;
     case Component::kMaxExclusive:
-      return compare_values(parameter, value, terms) > 0;
+      return compare_values(parameter, value, space) > 0;
     case Component::kMaxInclusive:
-      return compare_values(parameter, value, terms) >= 0;
+      return compare_values(parameter, value, space) >= 0;
     case Component::kMinLength:
-      return !terms.is_blank(value) && character_count(terms.text(value)) >= constraint.count;
+      return !terms.is_blank(value) &&
+             values::character_count(terms.text(value)) >= constraint.count;
     case Component::kMaxLength:
-      return !terms.is_blank(value) && character_count(terms.text(value)) <= constraint.count;
+      return !terms.is_blank(value) &&
+             values::character_count(terms.text(value)) <= constraint.count;
     case Component::kPattern:
-      return !terms.is_blank(value) && constraint.pattern->matches(terms.text(value));
+      return !terms.is_blank(value) && constraint.pattern->search(terms.text(value));
     case Component::kLanguageIn: {
       const std::string_view language = terms.language(value);
       return !language.empty() &&
-             std::any_of(
-                 constraint.languages.begin(), constraint.languages.end(),
-                 [&](const std::string& range) { return language_matches(language, range); });
+             std::any_of(constraint.languages.begin(), constraint.languages.end(),
+                         [&](const std::string& range) {
+                           return values::language_matches(language, range);
+                         });
     }
     case Component::kIn:
       return std::find(constraint.values.begin(), constraint.values.end(), value) !=

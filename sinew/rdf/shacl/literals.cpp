@@ -1,27 +1,30 @@
 #include "sinew/rdf/shacl/literals.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <string>
 
 #include "sinew/graph/numeric.h"
-#include "sinew/rdf/shacl/date_time.h"
 #include "sinew/rdf/shacl/vocabulary.h"
+#include "sinew/rdf/sparql/values/date_time.h"
+#include "sinew/rdf/sparql/values/operators.h"
 
 namespace sinew::rdf::shacl {
 namespace {
+
+namespace values = sparql::values;
+using values::Datatype;
 
 bool is_boolean(std::string_view text) {
   return text == "true" || text == "false" || text == "1" || text == "0";
 }
 
-bool is_hex_digit(char c) {
-  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
-}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 bool is_hex_binary(std::string_view text) {
-  return text.size() % 2 == 0 && std::all_of(text.begin(), text.end(), is_hex_digit);
+  return text.size() % 2 == 0 && std::all_of(text.begin(), text.end(), [](char c) {
+           return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+         });
 }
 
 // Groups of four characters, single spaces allowed between characters; one or two '=' at the end.
@@ -40,11 +43,10 @@ bool is_base64_binary(std::string_view text) {
     ++padding;
   }
   const std::string_view digits = std::string_view(packed).substr(0, packed.size() - padding);
-  const auto is_digit = [](char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '+' ||
-           c == '/';
-  };
-  if (!std::all_of(digits.begin(), digits.end(), is_digit)) return false;
+  if (!std::all_of(digits.begin(), digits.end(),
+                   [](char c) { return is_letter(c) || is_digit(c) || c == '+' || c == '/'; })) {
+    return false;
+  }
   // The last digit before padding must not carry bits that are lost.
   if (padding == 1) return std::string_view("AEIMQUYcgkosw048").find(digits.back()) != digits.npos;
   if (padding == 2) return std::string_view("AQgw").find(digits.back()) != digits.npos;
@@ -57,9 +59,7 @@ bool is_language(std::string_view text) {
   while (true) {
     const std::size_t end = std::min(text.find('-'), text.size());
     const std::string_view part = text.substr(0, end);
-    const auto fits = [first](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (!first && c >= '0' && c <= '9');
-    };
+    const auto fits = [first](char c) { return is_letter(c) || (!first && is_digit(c)); };
     if (part.empty() || part.size() > 8 || !std::all_of(part.begin(), part.end(), fits)) {
       return false;
     }
@@ -81,41 +81,72 @@ bool is_token(std::string_view text) {
 // Approximately: every character beyond ASCII counts as a letter of a name.
 bool is_name(std::string_view text, bool any_start, bool colons) {
   const auto starts = [&](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c & 0x80) != 0 ||
-           (c == ':' && colons);
+    return is_letter(c) || c == '_' || (c & 0x80) != 0 || (c == ':' && colons);
   };
-  const auto continues = [&](char c) {
-    return starts(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
-  };
+  const auto continues = [&](char c) { return starts(c) || is_digit(c) || c == '-' || c == '.'; };
   return !text.empty() && (any_start || starts(text[0])) &&
          std::all_of(text.begin(), text.end(), continues);
 }
 
-struct DateRow {
-  std::string_view name;
-  DateKind kind;
-};
-constexpr DateRow kDates[] = {
-    {"dateTime", DateKind::kDateTime}, {"dateTimeStamp", DateKind::kDateTimeStamp},
-    {"date", DateKind::kDate},         {"time", DateKind::kTime},
-    {"gYear", DateKind::kYear},        {"gYearMonth", DateKind::kYearMonth},
-    {"gMonth", DateKind::kMonth},      {"gMonthDay", DateKind::kMonthDay},
-    {"gDay", DateKind::kDay},
-};
-
-std::optional<DateKind> date_kind(std::string_view name) {
-  for (const DateRow& row : kDates) {
-    if (row.name == name) return row.kind;
-  }
-  return std::nullopt;
+template <Datatype kType>
+bool is_instant(std::string_view text) {
+  return values::parse_instant(text, kType).has_value();
+}
+template <Datatype kType>
+bool is_duration(std::string_view text) {
+  return values::parse_duration(text, kType).has_value();
 }
 
-struct TextRow {
+// Z, or + or - and hh:mm, at the end of the text.
+std::string_view zone_of(std::string_view text) {
+  if (text.ends_with('Z')) return text.substr(text.size() - 1);
+  constexpr std::size_t kZoneSize = 6;
+  if (text.size() <= kZoneSize || text[text.size() - 3] != ':') return {};
+  return text.substr(text.size() - kZoneSize);
+}
+
+// The parts of a date (gYear and so on): completed to a whole date, in a leap year.
+bool is_part_of_date(std::string_view text, std::string_view marks, std::string_view before,
+                     std::string_view behind) {
+  const std::string_view zone = zone_of(text);
+  std::string_view part = text.substr(0, text.size() - zone.size());
+  if (!part.starts_with(marks)) return false;
+  part.remove_prefix(marks.size());
+  // No further part may come along.
+  const std::size_t dashes = static_cast<std::size_t>(
+      std::count(part.begin() + (part.starts_with('-') ? 1 : 0), part.end(), '-'));
+  const std::size_t whole = static_cast<std::size_t>(std::count(before.begin(), before.end(), '-') +
+                                                     std::count(behind.begin(), behind.end(), '-'));
+  if (dashes + whole != 2) return false;
+  std::string date(before);
+  date += part;
+  date += behind;
+  date += zone;
+  return values::parse_instant(date, Datatype::kDate).has_value();
+}
+
+struct Row {
   std::string_view name;
   bool (*check)(std::string_view);
 };
-constexpr TextRow kTexts[] = {
+constexpr Row kRows[] = {
     {"boolean", is_boolean},
+    {"dateTime", is_instant<Datatype::kDateTime>},
+    {"dateTimeStamp",
+     [](std::string_view text) {
+       const auto instant = values::parse_instant(text, Datatype::kDateTime);
+       return instant && instant->has_zone();
+     }},
+    {"date", is_instant<Datatype::kDate>},
+    {"time", is_instant<Datatype::kTime>},
+    {"gYear", [](std::string_view text) { return is_part_of_date(text, "", "", "-01-01"); }},
+    {"gYearMonth", [](std::string_view text) { return is_part_of_date(text, "", "", "-01"); }},
+    {"gMonth", [](std::string_view text) { return is_part_of_date(text, "--", "1972-", "-01"); }},
+    {"gMonthDay", [](std::string_view text) { return is_part_of_date(text, "--", "1972-", ""); }},
+    {"gDay", [](std::string_view text) { return is_part_of_date(text, "---", "1972-01-", ""); }},
+    {"duration", is_duration<Datatype::kDuration>},
+    {"yearMonthDuration", is_duration<Datatype::kYearMonthDuration>},
+    {"dayTimeDuration", is_duration<Datatype::kDayTimeDuration>},
     {"hexBinary", is_hex_binary},
     {"base64Binary", is_base64_binary},
     {"language", is_language},
@@ -124,111 +155,31 @@ constexpr TextRow kTexts[] = {
     {"Name", [](std::string_view text) { return is_name(text, false, true); }},
     {"NCName", [](std::string_view text) { return is_name(text, false, false); }},
     {"NMTOKEN", [](std::string_view text) { return is_name(text, true, true); }},
-    {"duration", [](std::string_view text) { return is_duration(text, DurationKind::kAny); }},
-    {"yearMonthDuration",
-     [](std::string_view text) { return is_duration(text, DurationKind::kYearMonth); }},
-    {"dayTimeDuration",
-     [](std::string_view text) { return is_duration(text, DurationKind::kDayTime); }},
 };
-
-// The name behind the namespace of XML Schema, or nothing.
-std::string_view xsd_name(std::string_view datatype) {
-  return datatype.starts_with(kXsd) ? datatype.substr(kXsd.size()) : std::string_view();
-}
-
-// A decimal without sign and without superfluous zeros.
-struct Digits {
-  bool negative = false;
-  std::string_view whole, fraction;
-
-  explicit Digits(std::string_view text) {
-    if (text.starts_with('-') || text.starts_with('+')) {
-      negative = text[0] == '-';
-      text.remove_prefix(1);
-    }
-    const std::size_t point = std::min(text.find('.'), text.size());
-    whole = text.substr(0, point);
-    whole.remove_prefix(std::min(whole.find_first_not_of('0'), whole.size()));
-    fraction = text.substr(std::min(point + 1, text.size()));
-    fraction = fraction.substr(0, fraction.find_last_not_of('0') + 1);
-    if (whole.empty() && fraction.empty()) negative = false;
-  }
-};
-
-std::partial_ordering compare_decimals(std::string_view a_text, std::string_view b_text) {
-  const Digits a(a_text), b(b_text);
-  if (a.negative != b.negative) {
-    return a.negative ? std::partial_ordering::less : std::partial_ordering::greater;
-  }
-  std::partial_ordering order = a.whole.size() <=> b.whole.size();
-  if (order == 0) order = a.whole <=> b.whole;
-  if (order == 0) order = a.fraction <=> b.fraction;
-  return a.negative ? 0 <=> order : order;
-}
-
-bool is_exact(std::string_view datatype) {
-  const graph::NumericType type = graph::numeric_type(xsd_name(datatype));
-  return type == graph::NumericType::kDecimal || graph::is_integer(type);
-}
 
 }  // namespace
 
 bool is_well_formed(std::string_view lexical, std::string_view datatype) {
-  const std::string_view name = xsd_name(datatype);
+  if (!datatype.starts_with(kXsd)) return true;
+  const std::string_view name = datatype.substr(kXsd.size());
   if (const auto type = graph::numeric_type(name); type != graph::NumericType::kNone) {
     return graph::parse_number(lexical, type).has_value();
   }
-  if (const auto kind = date_kind(name)) return parse_date_time(lexical, *kind).has_value();
-  for (const TextRow& row : kTexts) {
-    if (row.name == name) return row.check(lexical);
-  }
-  return true;
+  const auto row = std::find_if(std::begin(kRows), std::end(kRows),
+                                [&](const Row& each) { return each.name == name; });
+  return row == std::end(kRows) || row->check(lexical);
 }
 
-std::partial_ordering compare_values(Id a, Id b, const graph::Terms& terms) {
-  if (!terms.is_literal(a) || !terms.is_literal(b)) return std::partial_ordering::unordered;
-  const Id a_type = terms.datatype(a), b_type = terms.datatype(b);
-  const std::string_view a_name = terms.text(a_type), b_name = terms.text(b_type);
-  const auto a_number = terms.number(a), b_number = terms.number(b);
-  if (a_number && b_number) {
-    if (is_exact(a_name) && is_exact(b_name)) return compare_decimals(terms.text(a), terms.text(b));
-    return *a_number <=> *b_number;
-  }
-  if (a_type != b_type || !terms.language(a).empty()) return std::partial_ordering::unordered;
-  const std::string_view name = xsd_name(a_name);
-  if (name == "string") return terms.text(a) <=> terms.text(b);
-  if (name == "boolean") {
-    if (!is_boolean(terms.text(a)) || !is_boolean(terms.text(b))) {
-      return std::partial_ordering::unordered;
-    }
-    const auto truth = [&](Id id) { return terms.text(id) == "true" || terms.text(id) == "1"; };
-    return static_cast<int>(truth(a)) <=> static_cast<int>(truth(b));
-  }
-  if (const auto kind = date_kind(name)) {
-    const auto a_time = parse_date_time(terms.text(a), *kind);
-    const auto b_time = parse_date_time(terms.text(b), *kind);
-    if (a_time && b_time) return compare(*a_time, *b_time);
-  }
-  return std::partial_ordering::unordered;
-}
-
-std::string to_lower(std::string_view ascii) {
-  std::string lower(ascii);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
-}
-
-bool language_matches(std::string_view language, std::string_view range) {
-  if (range == "*") return !language.empty();
-  const std::string tag = to_lower(language), prefix = to_lower(range);
-  return tag.starts_with(prefix) && (tag.size() == prefix.size() || tag[prefix.size()] == '-');
-}
-
-std::size_t character_count(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+std::partial_ordering compare_values(Id a, Id b, const values::TermSpace& space) {
+  const values::Value first = values::value_of(a, space), second = values::value_of(b, space);
+  if (!first.is_literal() || !second.is_literal()) return std::partial_ordering::unordered;
+  using values::Truth;
+  const Truth less = values::less(first, second);
+  if (less == Truth::kError) return std::partial_ordering::unordered;
+  if (less == Truth::kTrue) return std::partial_ordering::less;
+  if (values::less(second, first) == Truth::kTrue) return std::partial_ordering::greater;
+  return values::equals(first, second, space) == Truth::kTrue ? std::partial_ordering::equivalent
+                                                              : std::partial_ordering::unordered;
 }
 
 }  // namespace sinew::rdf::shacl

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
-#include "sinew/rdf/shacl/pattern.h"
 #include "sinew/rdf/shacl/shape_parser.h"
 
 namespace sinew::rdf::shacl {
@@ -215,17 +213,18 @@ void ShapeParser::closed(Id node, Shape& shape, const ComponentRow& row, bool is
   if (is_closed) shape.constraints.push_back(std::move(constraint));
 }
 
-std::shared_ptr<const Pattern> ShapeParser::pattern(Id node, Id text) {
+std::shared_ptr<const sparql::values::Regex> ShapeParser::pattern(Id node, Id text) {
   const auto flags = in_.objects(node, v_.flags);
   if (!is_string(node, v_.pattern, text, false) || !at_most_one(node, v_.flags, flags)) return {};
   if (!flags.empty() && !is_string(node, v_.flags, flags[0], false)) return {};
-  try {
-    return make_pattern(terms().text(text), flags.empty() ? "" : terms().text(flags[0]));
-  } catch (const std::invalid_argument& wrong) {
-    fault(node, v_.pattern, fmt::format("sh:pattern {}: {}", name(text), wrong.what()),
+  std::string why;
+  auto regex = sparql::values::Regex::compile(
+      terms().text(text), flags.empty() ? std::string_view() : terms().text(flags[0]), &why);
+  if (!regex) {
+    fault(node, v_.pattern, fmt::format("sh:pattern {}: {}", name(text), why),
           "write a regular expression of XPath (flags i s m x q)");
-    return {};
   }
+  return regex;
 }
 
 }  // namespace sinew::rdf::shacl

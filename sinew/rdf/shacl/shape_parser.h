@@ -37,7 +37,7 @@ class ShapeParser {
   void qualified(Id node, Shape& shape, const ComponentRow& row, const std::vector<Id>& counts);
   std::vector<ShapeIndex> siblings(Id node, Id own);
   void closed(Id node, Shape& shape, const ComponentRow& row, bool is_closed);
-  std::shared_ptr<const Pattern> pattern(Id node, Id text);
+  std::shared_ptr<const sparql::values::Regex> pattern(Id node, Id text);
 
   // ---- SHACL-SPARQL (parse_sparql.cpp) ----
   struct CustomComponent;

@@ -16,12 +16,12 @@
 #include "sinew/rdf/shacl/components.h"
 #include "sinew/rdf/shacl/path.h"
 #include "sinew/rdf/shacl/vocabulary.h"
+#include "sinew/rdf/sparql/values/regex.h"
 
 namespace sinew::rdf::shacl {
 
 using ShapeIndex = std::uint32_t;
 
-class Pattern;       // pattern.h
 struct SparqlCheck;  // sparql_check.h
 
 struct Constraint {
@@ -34,7 +34,7 @@ struct Constraint {
   std::uint64_t count = 0;                // of the cardinality and length components
   std::vector<ShapeIndex> siblings = {};  // qualified components: shapes that a value must not have
   std::vector<std::string> languages = {};
-  std::shared_ptr<const Pattern> pattern = {};
+  std::shared_ptr<const sparql::values::Regex> pattern = {};
   std::shared_ptr<const SparqlCheck> sparql = {};
 };
 

@@ -9,13 +9,16 @@
 #include <vector>
 
 #include "sinew/rdf/shacl/validation.h"
+#include "sinew/rdf/sparql/values/term_space.h"
 
 namespace sinew::rdf::shacl {
 
 class Validator {
  public:
   Validator(const Shapes& shapes, const GraphReader& data, const ValidationOptions& options)
-      : shapes_(shapes), data_(data), options_(options) {}
+      : shapes_(shapes), data_(data), options_(options) {
+    values_.begin(data.terms(), 0);
+  }
 
   void validate_targets(const Shape& shape);
   // Adds what is wrong to `results`. With null, only answers whether the node conforms, as soon as
@@ -29,6 +32,7 @@ class Validator {
   const Vocabulary& vocabulary() const { return shapes_.vocabulary; }
   const GraphReader& data() const { return data_; }
   const graph::Terms& terms() const { return data_.terms(); }
+  const sparql::values::TermSpace& values() const { return values_; }  // for comparing
   bool is_instance(Id node, Id of_class);
   std::string name(Id id) const;  // short, for messages
 
@@ -41,6 +45,7 @@ class Validator {
   const Shapes& shapes_;
   const GraphReader& data_;
   const ValidationOptions& options_;
+  sparql::values::TermSpace values_;
   std::vector<Result> results_;
   std::unordered_map<Id, std::unordered_set<Id>> classes_below_;
   std::vector<std::pair<const Shape*, Id>> under_way_;  // of recursive shapes
