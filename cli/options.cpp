@@ -1,10 +1,7 @@
 #include "options.h"
 
-#include <charconv>
-#include <cmath>
+#include <algorithm>
 #include <iostream>
-
-#include "sinew/base/error.h"
 
 namespace sinew::cli {
 
@@ -40,30 +37,6 @@ void add_query_options(CLI::App& app, QueryOptions& options) {
   app.add_option("--gravity", options.gravity,
                  "Gravity vector x,y,z in m/s^2 seen from the base (default: the model's)");
   app.add_flag("--floating", options.floating, "The base moves freely");
-}
-
-std::vector<double> parse_vector3(const std::string& text, const std::string& option) {
-  std::vector<double> values;
-  const char* at = text.data();
-  const char* const end = text.data() + text.size();
-  while (values.size() < 3) {
-    double value = 0;
-    const auto [next, fault] = std::from_chars(at, end, value);
-    if (fault != std::errc{} || !std::isfinite(value)) break;
-    values.push_back(value);
-    at = next;
-    if (at == end || *at != ',') break;
-    ++at;
-  }
-  if (values.size() != 3 || at != end) {
-    throw Error({{},
-                 "",
-                 "'" + text + "' is not a vector for " + option,
-                 "write three numbers, for example 0,0,-9.81",
-                 Severity::kError,
-                 {}});
-  }
-  return values;
 }
 
 }  // namespace sinew::cli

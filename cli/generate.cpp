@@ -1,0 +1,45 @@
+// sinew generate MODEL… --solver NAME -o DIR: source code.
+#include <filesystem>
+
+#include "options.h"
+#include "output.h"
+#include "pipeline.h"
+#include "sinew/backend/c_target.h"
+
+namespace sinew::cli {
+
+int run_generate(Arguments arguments) {
+  CLI::App app(
+      "Write the program that answers a query as source code: NAME.h, NAME.c and NAME.json, which "
+      "names every input and output.",
+      "sinew generate");
+  ModelOptions models_options;
+  QueryOptions query;
+  std::string name, target = "c", style = "flat", folder = ".";
+  add_model_options(app, models_options);
+  add_query_options(app, query);
+  app.add_option("--name", name, "Name of the function and the files (default: the query's)");
+  app.add_option("--target", target, "Language")
+      ->check(CLI::IsMember({"c"}))
+      ->capture_default_str();
+  app.add_option("--style", style,
+                 "flat: optimised straight-line code; readable: a call for each closure")
+      ->check(CLI::IsMember({"flat", "readable"}))
+      ->capture_default_str();
+  app.add_option("-o,--output", folder, "Folder for the files")->capture_default_str();
+  if (const auto code = parse(app, std::move(arguments))) return *code;
+
+  const auto models = load(models_options);
+  const program::Program program = program_of(*models, models_options, query, name);
+  backend::COptions options;
+  options.name = program.name;
+  options.style = style == "flat" ? backend::Style::kFlat : backend::Style::kReadable;
+  options.source = describe(models_options, query);
+  const backend::GeneratedCode code = backend::generate_c(program, options);
+  for (const backend::SourceFile& file : code.files) {
+    write_output((std::filesystem::path(folder) / file.name).string(), file.text);
+  }
+  return kOk;
+}
+
+}  // namespace sinew::cli

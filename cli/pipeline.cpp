@@ -1,0 +1,125 @@
+#include "pipeline.h"
+
+#include <filesystem>
+#include <iostream>
+
+#include "output.h"
+#include "sinew/algorithm/read.h"
+#include "sinew/model/load.h"
+#include "sinew/model/normalise.h"
+#include "sinew/program/lower.h"
+#include "sinew/rdf/catalogue/catalogue.h"
+#include "sinew/synthesis/read_query.h"
+#include "sinew/synthesis/synthesise.h"
+
+namespace sinew::cli {
+namespace {
+
+[[noreturn]] void fail(std::string what, std::string remedy) {
+  throw Error({{}, "", std::move(what), std::move(remedy), Severity::kError, {}});
+}
+
+bool names_query(const QueryOptions& query) {
+  return !query.query_file.empty() || !query.solver.empty();
+}
+
+void print_note(const std::string& text) { std::cerr << "note: " << text << "\n"; }
+
+// The algorithm that the files hold.
+graph::Id only_algorithm(Models& models) {
+  const auto found = algorithm::find_algorithms(models.store.view());
+  if (found.size() == 1) return found.front();
+  if (found.empty()) {
+    fail("the models hold no algorithm, and no query is named",
+         "add --solver NAME or --query FILE, or give a file that 'sinew synth' wrote");
+  }
+  std::string names;
+  for (const graph::Id id : found) names += " " + std::string(models.store.terms().text(id));
+  fail("the models hold more than one algorithm:" + names, "give a file with one of them");
+}
+
+catalogue::Catalogue catalogue_of(const ModelOptions& files) {
+  catalogue::Catalogue catalogue;
+  for (const std::string& folder : files.catalogs) catalogue.add_directory(folder);
+  return catalogue;
+}
+
+synthesis::Query query_of(const ModelOptions& files, const QueryOptions& options) {
+  synthesis::Query query = options.solver.empty()
+                               ? synthesis::parse_query(read_input(options.query_file),
+                                                        options.query_file, catalogue_of(files))
+                               : synthesis::named_query(options.solver);
+  if (!options.base.empty()) query.base = options.base;
+  if (!options.tips.empty()) query.tips = options.tips;
+  if (!options.gravity.empty()) query.gravity = parse_vector3(options.gravity, "--gravity");
+  if (options.floating) query.floating = true;
+  return query;
+}
+
+void normalise(Models& models, const synthesis::Query& query) {
+  model::NormaliseOptions options;
+  options.base = query.base;
+  options.tips = query.tips;
+  if (query.gravity)
+    options.gravity = model::Vector3{(*query.gravity)[0], (*query.gravity)[1], (*query.gravity)[2]};
+  Report report;
+  const model::Tree tree = model::normalise(models.store, models.places, options, report);
+  print_notes(report);
+  report.throw_if_errors();
+  for (const std::string& note : tree.notes) print_note(note);
+  model::write(tree, models.store);
+}
+
+}  // namespace
+
+graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOptions& options,
+                       std::vector<std::string>* why) {
+  if (!names_query(options)) return only_algorithm(models);
+  const synthesis::Query query = query_of(files, options);
+  normalise(models, query);
+  synthesis::Synthesis synthesis = synthesis::synthesise(models.store, query);
+  for (const std::string& note : synthesis.notes) print_note(note);
+  if (why != nullptr) *why = std::move(synthesis.why);
+  return synthesis.algorithm;
+}
+
+program::Program program_of(Models& models, const ModelOptions& files, const QueryOptions& options,
+                            const std::string& name) {
+  const graph::Id algorithm = algorithm_of(models, files, options);
+  std::string program_name = name;
+  if (program_name.empty()) program_name = options.solver.empty() ? "program" : options.solver;
+  return program::lower(models.store.view(), algorithm, program_name, &models.places);
+}
+
+std::unique_ptr<Models> load(const ModelOptions& options) {
+  auto models = std::make_unique<Models>();
+  model::LoadOptions load_options;
+  for (const std::string& folder : options.catalogs) load_options.catalogues.emplace_back(folder);
+  load_options.lenient = options.lenient;
+  const std::vector<std::filesystem::path> files(options.files.begin(), options.files.end());
+  Report report;
+  model::load_files(files, load_options, models->store, models->places, report);
+  print_notes(report);
+  report.throw_if_errors();
+  return models;
+}
+
+void print_notes(const Report& report) {
+  for (const Problem& problem : report.problems()) {
+    if (problem.severity == Severity::kWarning) std::cerr << to_string(problem) << "\n";
+  }
+}
+
+std::string describe(const ModelOptions& files, const QueryOptions& query) {
+  std::string text;
+  for (const std::string& file : files.files) {
+    text += (text.empty() ? "" : " ") + std::filesystem::path(file).filename().string();
+  }
+  if (!query.solver.empty()) text += ", solver " + query.solver;
+  if (!query.query_file.empty()) {
+    text += ", query " + std::filesystem::path(query.query_file).filename().string();
+  }
+  return text;
+}
+
+}  // namespace sinew::cli

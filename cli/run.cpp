@@ -1,0 +1,89 @@
+// sinew run MODEL… --solver NAME --input ROWS.csv: rows in, rows out.
+#include <algorithm>
+#include <iostream>
+
+#include "csv.h"
+#include "evaluator.h"
+#include "options.h"
+#include "output.h"
+#include "pipeline.h"
+
+namespace sinew::cli {
+namespace {
+
+// For each input number of the program, its column of the table.
+std::vector<std::size_t> match_columns(const std::vector<std::string>& inputs, const Table& table,
+                                       const std::string& file) {
+  std::vector<std::size_t> columns;
+  std::string missing;
+  for (const std::string& input : inputs) {
+    const auto found = std::find(table.columns.begin(), table.columns.end(), input);
+    if (found == table.columns.end()) {
+      missing += (missing.empty() ? "" : ", ") + input;
+      continue;
+    }
+    columns.push_back(static_cast<std::size_t>(found - table.columns.begin()));
+  }
+  if (!missing.empty()) {
+    throw Error({{file, 1, 0},
+                 "",
+                 "has no column for the input " + missing,
+                 "give every input of the program a column",
+                 Severity::kError,
+                 {}});
+  }
+  for (const std::string& column : table.columns) {
+    if (std::find(inputs.begin(), inputs.end(), column) == inputs.end()) {
+      std::cerr << file << ":1: warning: column " << column << " is no input of the program\n";
+    }
+  }
+  return columns;
+}
+
+}  // namespace
+
+int run_run(Arguments arguments) {
+  CLI::App app(
+      "Evaluate a query for every row of a CSV file: columns are named like the program's inputs "
+      "(position.joint1, …), one row is one evaluation.",
+      "sinew run");
+  ModelOptions models_options;
+  QueryOptions query;
+  std::string input, output;
+  bool interpret = false;
+  add_model_options(app, models_options);
+  add_query_options(app, query);
+  app.add_option("--input", input, "CSV file with the inputs, - for standard input")->required();
+  app.add_option("-o,--output", output, "CSV file for the results (default: standard output)");
+  app.add_flag("--interpret", interpret, "Evaluate closure by closure instead of compiling");
+  if (const auto code = parse(app, std::move(arguments))) return *code;
+
+  const Table rows = read_csv(read_input(input), input);
+  const auto models = load(models_options);
+  const program::Program program = program_of(*models, models_options, query, "");
+
+  // Where nothing can be compiled the interpreter gives the same results, only later.
+  How how = interpret ? How::kInterpreted : How::kCompiled;
+  std::string why;
+  if (how == How::kCompiled && !backend::jit_available(&why)) {
+    std::cerr << "sinew run: interpreting, since " << why << "\n";
+    how = How::kInterpreted;
+  }
+  Evaluator evaluator(program, how, backend::JitLevel::kFast);
+
+  const program::Interface& interface = evaluator.interface();
+  const auto columns = match_columns(column_names(program, interface.inputs), rows, input);
+  Table results{column_names(program, interface.outputs), {}};
+  results.values.resize(rows.rows() * interface.out_size);
+  std::vector<double> in(interface.in_size);
+  for (std::size_t row = 0; row < rows.rows(); ++row) {
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      in[i] = rows.values[row * rows.columns.size() + columns[i]];
+    }
+    evaluator.evaluate(in.data(), results.values.data() + row * interface.out_size);
+  }
+  write_output(output, write_csv(results));
+  return kOk;
+}
+
+}  // namespace sinew::cli
