@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "sinew/blocks/schema.h"
+
 namespace sinew::blocks {
 namespace {
 
@@ -59,16 +61,11 @@ class Formatter {
                          node.text("prototype"));
     }
     if (kind == "annotation") {
-      const auto values = node.all("value");
-      return fmt::format("{}{}{}{}", node.text("name"), node.has("optional") ? " ?" : "",
-                         values.empty() ? "" : " : ", fmt::join(values, " | "));
+      return node.text("name") + (node.has("optional") ? " ?" : "");
     }
     if (kind == "composite") {
       return fmt::format("composite {} = {{ {} }}", node.text("name"),
                          fmt::join(node.all("member"), ", "));
-    }
-    if (kind == "convention") {
-      return fmt::format("convention {} of {}", node.text("name"), fmt::join(node.all("of"), ", "));
     }
     return fmt::format("older {}", node.text("name"));
   }
@@ -77,10 +74,33 @@ class Formatter {
     return is_plain_name(text) ? text : fmt::format("\"{}\"", text);
   }
 
-  static bool commented(const Node& node) { return !node.comments.empty() || !node.remark.empty(); }
+  static bool has_words(const std::vector<std::string>& lines) {
+    return std::any_of(lines.begin(), lines.end(),
+                       [](const std::string& line) { return !line.empty(); });
+  }
+  static bool commented(const Node& node) {
+    return has_words(node.comments) || !node.remark.empty();
+  }
 
-  void comments(const std::vector<std::string>& lines, const std::string& indent) {
-    for (const std::string& line : lines) text_ += indent + line + "\n";
+  // Blank lines between comments stay where `blanks`; those before the first one are the caller's.
+  void comments(const std::vector<std::string>& lines, const std::string& indent,
+                bool blanks = false) {
+    bool first = true;
+    for (const std::string& line : lines) {
+      if (line.empty()) {
+        if (blanks && !first) text_ += "\n";
+        continue;
+      }
+      text_ += indent + line + "\n";
+      first = false;
+    }
+  }
+  void end_comments(std::vector<std::string> lines, const std::string& indent) {
+    while (!lines.empty() && lines.back().empty()) lines.pop_back();
+    comments(lines, indent, true);
+  }
+  static bool blank_before(const Node& node) {
+    return !node.comments.empty() && node.comments.front().empty();
   }
 
   void remark(const Node& node) {
@@ -90,7 +110,7 @@ class Formatter {
   // "head { a = b, c = d }" on one line if it fits, else filled lines, else, with comments, one
   // entry a line.
   void braces(const std::string& head, const Node& node, const std::string& indent) {
-    const bool plain = node.end_comments.empty() &&
+    const bool plain = !has_words(node.end_comments) &&
                        std::none_of(node.children.begin(), node.children.end(), commented);
     std::string line = indent + head + " {";
     for (std::size_t i = 0; i < node.children.size(); ++i) {
@@ -130,14 +150,13 @@ class Formatter {
   // A type or formula: on one line if it is one, else each of its lines indented alike.
   void raw(const std::string& head, const std::string& content, const std::string& indent) {
     const std::string body = trimmed(content);
-    if (body.find('\n') == std::string::npos &&
-        (indent.size() + head.size() + body.size() + 5 <= kLineWidth ||
-         body.find("//") == std::string::npos)) {
-      if (body.find("//") == std::string::npos) {
-        text_ += body.empty() ? fmt::format("{}{} {{}}", indent, head)
-                              : fmt::format("{}{} {{ {} }}", indent, head, body);
-        return;
-      }
+    const std::string line = body.empty() ? fmt::format("{}{} {{}}", indent, head)
+                                          : fmt::format("{}{} {{ {} }}", indent, head, body);
+    const bool one_line =
+        body.find('\n') == std::string::npos && body.find("//") == std::string::npos;
+    if (one_line && line.size() <= kLineWidth) {
+      text_ += line;
+      return;
     }
     text_ += indent + head + " {\n";
     std::size_t shared = std::string::npos;  // the least indentation of the lines after the first
@@ -175,21 +194,22 @@ class Formatter {
     for (std::size_t i = 0; i < parent.children.size(); ++i) {
       const Node& node = parent.children[i];
       const std::size_t before = text_.size();
-      comments(node.comments, indent);
+      comments(node.comments, indent, true);
+      const auto begin = static_cast<std::ptrdiff_t>(text_.size());
       item(node, indent);
       remark(node);
       text_ += "\n";
-      // Short items of one kind stay together; everything else is set off by a blank line.
-      const auto lines =
-          std::count(text_.begin() + static_cast<std::ptrdiff_t>(before), text_.end(), '\n');
-      if (i > 0 && (lines > 1 || last_lines_ > 1 || node.kind != parent.children[i - 1].kind)) {
+      // Short items of one kind may stay together; everything else is set off by a blank line.
+      const auto lines = std::count(text_.begin() + begin, text_.end(), '\n');
+      if (i > 0 && (blank_before(node) || has_words(node.comments) || lines > 1 ||
+                    last_lines_ > 1 || node.kind != parent.children[i - 1].kind)) {
         text_.insert(before, "\n");
       }
       last_lines_ = lines;
     }
-    if (!parent.end_comments.empty()) {
+    if (has_words(parent.end_comments)) {
       if (!parent.children.empty()) text_ += "\n";
-      comments(parent.end_comments, indent);
+      end_comments(parent.end_comments, indent);
     }
   }
 
@@ -249,20 +269,39 @@ class Formatter {
     return spaced;
   }
 
-  void body(const Node& node, const std::string& indent, const std::string& head, auto&& print) {
+  void body(const Node& node, const std::string& indent, const std::string& head, bool blanks,
+            auto&& print) {
     text_ += indent + head + " {\n";
-    for (const Node& child : node.children) {
-      comments(child.comments, indent + "  ");
-      print(child, indent + "  ");
+    const std::string inner = indent + "  ";
+    for (std::size_t i = 0; i < node.children.size(); ++i) {
+      const Node& child = node.children[i];
+      if (blanks && i > 0 && blank_before(child)) text_ += "\n";
+      comments(child.comments, inner, blanks);
+      print(child, inner);
       remark(child);
       text_ += "\n";
     }
-    comments(node.end_comments, indent + "  ");
+    end_comments(node.end_comments, inner);
     text_ += indent + "}";
   }
 
+  // "head a, b, c" with as many lines as it takes.
+  void filled(const std::string& head, const std::vector<std::string>& parts,
+              const std::string& separator, const std::string& indent) {
+    std::string line = indent + head;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const std::string part = " " + parts[i] + (i + 1 < parts.size() ? separator : "");
+      if (line.size() + part.size() > kLineWidth) {
+        text_ += line + "\n";
+        line = indent + "   ";
+      }
+      line += part;
+    }
+    text_ += line;
+  }
+
   void domain(const Node& node, const std::string& indent) {
-    body(node, indent, fmt::format("domain {} ::", node.text("name")),
+    body(node, indent, fmt::format("domain {} ::", node.text("name")), true,
          [&](const Node& child, const std::string& inner) {
            if (child.kind == "coordinates") {
              std::string head = fmt::format("coordinates {} of {}", child.text("name"),
@@ -274,15 +313,29 @@ class Formatter {
                                             child.text("to"), child.text("of"));
              if (child.has("loses")) head += fmt::format(" loses \"{}\"", child.text("loses"));
              raw(head, child.text("text"), inner);
+           } else if (child.kind == "convention") {
+             filled(fmt::format("convention {} of", child.text("name")), child.all("of"), ",",
+                    inner);
+           } else if (child.kind == "annotation" && child.has("value")) {
+             filled(fmt::format("{}{} :", child.text("name"), child.has("optional") ? " ?" : ""),
+                    child.all("value"), " |", inner);
            } else {
              text_ += inner + entry(child);
            }
          });
   }
 
-  void prototype(const Node& node, const std::string& indent) {
+  void prototype(const Node& unordered, const std::string& indent) {
+    Node node = unordered;
+    const auto order = [](const Node& field) {
+      const auto rows = field_rows();
+      return std::find_if(rows.begin(), rows.end(),
+                          [&](const FieldRow& row) { return row.kind == field.kind; });
+    };
+    std::stable_sort(node.children.begin(), node.children.end(),
+                     [&](const Node& a, const Node& b) { return order(a) < order(b); });
     body(node, indent, fmt::format("dproto {} :: {}", node.text("name"), node.text("domain")),
-         [&](const Node& field, const std::string& inner) {
+         false, [&](const Node& field, const std::string& inner) {
            const std::string head = fmt::format("{:<9} =", field.kind);
            if (field.has("value")) {
              text_ += fmt::format("{}{} {}", inner, head, field.text("value"));
@@ -302,7 +355,7 @@ class Formatter {
 
   void function(const Node& node, const std::string& indent) {
     const std::string context = node.has("context") ? " :: " + node.text("context") : "";
-    body(node, indent, fmt::format("fproto {}{}", node.text("name"), context),
+    body(node, indent, fmt::format("fproto {}{}", node.text("name"), context), false,
          [&](const Node& field, const std::string& inner) {
            if (field.kind == "args") {
              braces("args =", field, inner);

@@ -32,9 +32,12 @@ void Lexer::fail(const Place& place, std::string what, std::string remedy) const
 }
 
 void Lexer::skip_spaces() {
+  std::size_t newlines = 0;  // since the last word or comment
   while (at_ < text_.size()) {
     const char c = text_[at_];
     if (c == '\n') {
+      if (++newlines == 2 && (comments_.empty() || !comments_.back().empty()))
+        comments_.emplace_back();
       ++line_;
       line_begin_ = at_ + 1;
       fresh_line_ = true;
@@ -66,6 +69,7 @@ void Lexer::skip_spaces() {
       } else {
         comments_.push_back(std::move(comment));
       }
+      newlines = 0;
     } else {
       return;
     }

@@ -36,7 +36,8 @@ class Lexer {
   Place place_of(const Token& token) const { return {file_, token.line, token.column}; }
   [[noreturn]] void fail(const Place& place, std::string what, std::string remedy = {}) const;
 
-  // Comments passed since the last call, and the one on the last word's own line.
+  // Comments passed since the last call, with an empty text for blank lines; and the comment on the
+  // last word's own line.
   std::vector<std::string> take_comments();
   std::string take_remark();
 

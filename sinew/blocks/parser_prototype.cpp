@@ -15,7 +15,18 @@ Node Parser::parse_dproto() {
   expect("::");
   const Place place = lexer_.place();
   add_here(node, "domain", expect_name("the prototype's domain"), place);
-  parse_braces(node, [&] { return parse_field(); });
+  parse_braces(node, [&] {
+    Node field = parse_field();
+    if (node.child(field.kind)) {
+      throw Error(Problem{field.place,
+                          node.text("name"),
+                          fmt::format("field '{}' is there twice", field.kind),
+                          "leave one out",
+                          Severity::kError,
+                          {}});
+    }
+    return field;
+  });
   return node;
 }
 

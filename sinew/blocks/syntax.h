@@ -44,8 +44,8 @@ struct Text {
 struct Node {
   std::string kind;
   Place place;
-  std::vector<std::string> comments;      // before it, as written with their marks
-  std::string remark;                     // the comment behind it on its last line
+  std::vector<std::string> comments;  // before it, as written with their marks; "" is a blank line
+  std::string remark;                 // the comment behind it on its last line
   std::vector<std::string> end_comments;  // before its closing brace, or the end of the file
   std::vector<Text> texts;                // a name may repeat: a list
   std::vector<Node> children;
