@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include "sinew/math/rotation.h"
 #include "sinew/math/twist.h"
 #include "sinew/math/wrench.h"
 
@@ -51,6 +52,43 @@ Wrench<S> newton_euler_at_rest(const RigidBodyInertia<S>& I, const AccelerationT
                                J.xz * al.x + J.yz * al.y + J.zz * al.z};
   return {rotation + cross(I.first_moment, A.linear),
           I.mass * A.linear + cross(al, I.first_moment)};
+}
+
+// The same inertia seen from A and about A's origin: with h_A = R h + m p,
+// I_A = R I R^T + (h_R . p + p . h_A) 1 - p h_R^T - h_A p^T where h_R = R h (Steiner's theorem).
+template <typename S>
+RigidBodyInertia<S> transform_to_proximal(const Pose<S>& X_AB, const RigidBodyInertia<S>& I_B) {
+  const Vector3<S>& p = X_AB.p;
+  const Symmetric3<S> J = rotate(X_AB.R, I_B.rotational);
+  const Vector3<S> h = X_AB.R * I_B.first_moment;
+  const Vector3<S> h_A = h + I_B.mass * p;
+  const Vector3<S> g = h + h_A;
+  const S xx = p.x * g.x;
+  const S yy = p.y * g.y;
+  const S zz = p.z * g.z;
+  return {I_B.mass,
+          h_A,
+          {J.xx + (yy + zz), J.xy - (p.x * h.y + h_A.x * p.y), J.xz - (p.x * h.z + h_A.x * p.z),
+           J.yy + (xx + zz), J.yz - (p.y * h.z + h_A.y * p.z), J.zz + (xx + yy)}};
+}
+
+// Of two bodies that are fixed to each other, seen from the same frame.
+template <typename S>
+RigidBodyInertia<S> add(const RigidBodyInertia<S>& a, const RigidBodyInertia<S>& b) {
+  return {a.mass + b.mass, a.first_moment + b.first_moment, a.rotational + b.rotational};
+}
+
+// The wrench that accelerates a body at rest by one unit about its z, or along it.
+template <typename S>
+Wrench<S> wrench_of_revolute(const RigidBodyInertia<S>& I) {
+  const Vector3<S>& h = I.first_moment;
+  return {{I.rotational.xz, I.rotational.yz, I.rotational.zz}, {-h.y, h.x, S(0)}};
+}
+
+template <typename S>
+Wrench<S> wrench_of_prismatic(const RigidBodyInertia<S>& I) {
+  const Vector3<S>& h = I.first_moment;
+  return {{h.y, -h.x, S(0)}, {S(0), S(0), I.mass}};
 }
 
 }  // namespace sinew::math

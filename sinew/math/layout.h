@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "sinew/math/articulated_inertia.h"
 #include "sinew/math/inertia.h"
 #include "sinew/math/pose.h"
 #include "sinew/math/twist.h"
@@ -82,6 +83,24 @@ struct Layout<RigidBodyInertia<S>> {
     at[1] = I.first_moment.x, at[2] = I.first_moment.y, at[3] = I.first_moment.z;
     at[4] = I.rotational.xx, at[5] = I.rotational.xy, at[6] = I.rotational.xz;
     at[7] = I.rotational.yy, at[8] = I.rotational.yz, at[9] = I.rotational.zz;
+  }
+};
+
+// J (xx xy xz yy yz zz), H row by row, M (as J).
+template <typename S>
+struct Layout<ArticulatedInertia<S>> {
+  static constexpr std::uint32_t kSize = 21;
+  static ArticulatedInertia<S> load(const S* at) {
+    return {{at[0], at[1], at[2], at[3], at[4], at[5]},
+            {at[6], at[7], at[8], at[9], at[10], at[11], at[12], at[13], at[14]},
+            {at[15], at[16], at[17], at[18], at[19], at[20]}};
+  }
+  static void store(const ArticulatedInertia<S>& I, S* at) {
+    at[0] = I.J.xx, at[1] = I.J.xy, at[2] = I.J.xz, at[3] = I.J.yy, at[4] = I.J.yz, at[5] = I.J.zz;
+    at[6] = I.H.xx, at[7] = I.H.xy, at[8] = I.H.xz, at[9] = I.H.yx, at[10] = I.H.yy;
+    at[11] = I.H.yz, at[12] = I.H.zx, at[13] = I.H.zy, at[14] = I.H.zz;
+    at[15] = I.M.xx, at[16] = I.M.xy, at[17] = I.M.xz, at[18] = I.M.yy, at[19] = I.M.yz;
+    at[20] = I.M.zz;
   }
 };
 

@@ -2,6 +2,7 @@
 // runtime.
 #include "sinew/math/sinew_math.h"
 
+#include "sinew/math/articulated_inertia.h"
 #include "sinew/math/inertia.h"
 #include "sinew/math/joint.h"
 #include "sinew/math/layout.h"
@@ -112,3 +113,58 @@ void sinew_rotate_wrench_to_proximal(const double* X_AB, const double* W_B, doub
 void sinew_rotate_wrench_to_distal(const double* X_AB, const double* W_A, double* W_B) {
   store(rotate_to_distal(load<Pose>(X_AB), load<Wrench>(W_A)), W_B);
 }
+
+void sinew_transform_rigid_body_inertia_to_proximal(const double* X_AB, const double* I_B,
+                                                    double* I_A) {
+  store(transform_to_proximal(load<Pose>(X_AB), load<RigidBodyInertia>(I_B)), I_A);
+}
+
+void sinew_accumulate_rigid_body_inertia(const double* a, const double* b, double* c) {
+  store(add(load<RigidBodyInertia>(a), load<RigidBodyInertia>(b)), c);
+}
+
+void sinew_articulated_from_rigid_body_inertia(const double* I, double* IA) {
+  store(articulated(load<RigidBodyInertia>(I)), IA);
+}
+
+void sinew_transform_articulated_body_inertia_to_proximal(const double* X_AB, const double* I_B,
+                                                          double* I_A) {
+  store(transform_to_proximal(load<Pose>(X_AB), load<ArticulatedInertia>(I_B)), I_A);
+}
+
+void sinew_accumulate_articulated_body_inertia(const double* a, const double* b, double* c) {
+  store(add(load<ArticulatedInertia>(a), load<ArticulatedInertia>(b)), c);
+}
+
+void sinew_wrench_of_revolute_from_rigid_body_inertia(const double* I, double* U) {
+  store(wrench_of_revolute(load<RigidBodyInertia>(I)), U);
+}
+
+void sinew_wrench_of_prismatic_from_rigid_body_inertia(const double* I, double* U) {
+  store(wrench_of_prismatic(load<RigidBodyInertia>(I)), U);
+}
+
+void sinew_wrench_of_revolute_from_articulated_body_inertia(const double* I, double* U) {
+  store(wrench_of_revolute(load<ArticulatedInertia>(I)), U);
+}
+
+void sinew_wrench_of_prismatic_from_articulated_body_inertia(const double* I, double* U) {
+  store(wrench_of_prismatic(load<ArticulatedInertia>(I)), U);
+}
+
+void sinew_project_articulated_body_inertia(const double* I, const double* U, const double* D,
+                                            double* I_a) {
+  store(project(load<ArticulatedInertia>(I), load<Wrench>(U), *D), I_a);
+}
+
+void sinew_project_wrench(const double* W, const double* U, const double* D, const double* u,
+                          double* W_a) {
+  store(project(load<Wrench>(W), load<Wrench>(U), *D, *u), W_a);
+}
+
+void sinew_joint_acceleration_from_force(const double* u, const double* U, const double* D,
+                                         const double* A, double* qdd) {
+  store(joint_acceleration(*u, load<Wrench>(U), *D, load<AccelerationTwist>(A)), qdd);
+}
+
+void sinew_subtract_joint_force(const double* a, const double* b, double* c) { *c = *a - *b; }

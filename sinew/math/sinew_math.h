@@ -7,6 +7,8 @@
  *   acceleration twist   6  angular (rad/s^2), then linear (m/s^2), classical
  *   wrench               6  moment (N m), then force (N)
  *   rigid-body inertia  10  m, m c (3), Ixx Ixy Ixz Iyy Iyz Izz about the frame's origin
+ *   articulated inertia 21  J (xx xy xz yy yz zz), H row by row, M: n = J alpha + H a, f = H^T
+ * alpha + M a
  *
  * A twist or wrench is about the origin of the frame from which it is seen, which the suffix names:
  * V_A is seen from A. Outputs come last and may not overlap inputs. No allocation, no global state.
@@ -66,6 +68,33 @@ void sinew_transform_wrench_to_proximal(const double X_AB[12], const double W_B[
 void sinew_accumulate_wrench(const double a[6], const double b[6], double c[6]);
 void sinew_rotate_wrench_to_proximal(const double X_AB[12], const double W_B[6], double W_A[6]);
 void sinew_rotate_wrench_to_distal(const double X_AB[12], const double W_A[6], double W_B[6]);
+
+/* Inertias of several bodies together. */
+void sinew_transform_rigid_body_inertia_to_proximal(const double X_AB[12], const double I_B[10],
+                                                    double I_A[10]);
+void sinew_accumulate_rigid_body_inertia(const double a[10], const double b[10], double c[10]);
+void sinew_articulated_from_rigid_body_inertia(const double I[10], double IA[21]);
+void sinew_transform_articulated_body_inertia_to_proximal(const double X_AB[12],
+                                                          const double I_B[21], double I_A[21]);
+void sinew_accumulate_articulated_body_inertia(const double a[21], const double b[21],
+                                               double c[21]);
+
+/* The wrench U that accelerates a body at rest by one unit about z, or along z; its component along
+ * the joint is the inertia D that the joint feels. */
+void sinew_wrench_of_revolute_from_rigid_body_inertia(const double I[10], double U[6]);
+void sinew_wrench_of_prismatic_from_rigid_body_inertia(const double I[10], double U[6]);
+void sinew_wrench_of_revolute_from_articulated_body_inertia(const double I[21], double U[6]);
+void sinew_wrench_of_prismatic_from_articulated_body_inertia(const double I[21], double U[6]);
+
+/* Through a joint that is free to move: I - U U^T / D; W + U u / D; and the joint's acceleration
+ * under the force u while the predecessor accelerates with A, (u - U . A) / D. */
+void sinew_project_articulated_body_inertia(const double I[21], const double U[6],
+                                            const double D[1], double I_a[21]);
+void sinew_project_wrench(const double W[6], const double U[6], const double D[1],
+                          const double u[1], double W_a[6]);
+void sinew_joint_acceleration_from_force(const double u[1], const double U[6], const double D[1],
+                                         const double A[6], double qdd[1]);
+void sinew_subtract_joint_force(const double a[1], const double b[1], double c[1]);
 
 #ifdef __cplusplus
 }

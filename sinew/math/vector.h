@@ -47,6 +47,17 @@ Vector3<S> operator*(const S& s, const Vector3<S>& a) {
 }
 
 template <typename S>
+Symmetric3<S> operator+(const Symmetric3<S>& a, const Symmetric3<S>& b) {
+  return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
+}
+
+template <typename S>
+Matrix3<S> operator+(const Matrix3<S>& a, const Matrix3<S>& b) {
+  return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yx + b.yx, a.yy + b.yy,
+          a.yz + b.yz, a.zx + b.zx, a.zy + b.zy, a.zz + b.zz};
+}
+
+template <typename S>
 S dot(const Vector3<S>& a, const Vector3<S>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }

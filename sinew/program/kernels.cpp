@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "sinew/math/articulated_inertia.h"
 #include "sinew/math/inertia.h"
 #include "sinew/math/joint.h"
 #include "sinew/math/layout.h"
@@ -128,6 +129,44 @@ std::vector<Kernel> make_kernels() {
           []<typename S>(const Pose<S>& X_AB, const Wrench<S>& W_A) {
             return rotate_to_distal(X_AB, W_A);
           }),
+
+      // Inertias of several bodies.
+      row("transform-rigid-body-inertia-to-proximal",
+          []<typename S>(const Pose<S>& X_AB, const RigidBodyInertia<S>& I_B) {
+            return transform_to_proximal(X_AB, I_B);
+          }),
+      row("accumulate-rigid-body-inertia",
+          []<typename S>(const RigidBodyInertia<S>& a, const RigidBodyInertia<S>& b) {
+            return add(a, b);
+          }),
+      row("wrench-of-revolute-from-rigid-body-inertia",
+          []<typename S>(const RigidBodyInertia<S>& I) { return wrench_of_revolute(I); }),
+      row("wrench-of-prismatic-from-rigid-body-inertia",
+          []<typename S>(const RigidBodyInertia<S>& I) { return wrench_of_prismatic(I); }),
+      row("articulated-from-rigid-body-inertia",
+          []<typename S>(const RigidBodyInertia<S>& I) { return articulated(I); }),
+      row("accumulate-articulated-body-inertia",
+          []<typename S>(const ArticulatedInertia<S>& a, const ArticulatedInertia<S>& b) {
+            return add(a, b);
+          }),
+      row("transform-articulated-body-inertia-to-proximal",
+          []<typename S>(const Pose<S>& X_AB, const ArticulatedInertia<S>& I_B) {
+            return transform_to_proximal(X_AB, I_B);
+          }),
+      row("wrench-of-revolute-from-articulated-body-inertia",
+          []<typename S>(const ArticulatedInertia<S>& I) { return wrench_of_revolute(I); }),
+      row("wrench-of-prismatic-from-articulated-body-inertia",
+          []<typename S>(const ArticulatedInertia<S>& I) { return wrench_of_prismatic(I); }),
+      row("project-articulated-body-inertia",
+          []<typename S>(const ArticulatedInertia<S>& I, const Wrench<S>& U, const S& D) {
+            return project(I, U, D);
+          }),
+      row("project-wrench", []<typename S>(const Wrench<S>& W, const Wrench<S>& U, const S& D,
+                                           const S& u) { return project(W, U, D, u); }),
+      row("joint-acceleration-from-force",
+          []<typename S>(const S& u, const Wrench<S>& U, const S& D,
+                         const AccelerationTwist<S>& A) { return joint_acceleration(u, U, D, A); }),
+      row("subtract-joint-force", []<typename S>(const S& a, const S& b) { return S(a - b); }),
   };
   std::sort(rows.begin(), rows.end(),
             [](const Kernel& a, const Kernel& b) { return a.operation < b.operation; });

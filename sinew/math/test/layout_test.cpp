@@ -27,6 +27,7 @@ TEST(Layout, StoresWhatItLoads) {
   expect_round_trip<AccelerationTwist<double>>();
   expect_round_trip<Wrench<double>>();
   expect_round_trip<RigidBodyInertia<double>>();
+  expect_round_trip<ArticulatedInertia<double>>();
 }
 
 TEST(Layout, PutsThePositionInTheFourthColumnOfAPose) {

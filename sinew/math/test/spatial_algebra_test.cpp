@@ -4,7 +4,9 @@
 
 #include <Eigen/Dense>
 #include <random>
+#include <vector>
 
+#include "sinew/math/articulated_inertia.h"
 #include "sinew/math/inertia.h"
 #include "sinew/math/joint.h"
 #include "sinew/math/pose.h"
@@ -230,6 +232,109 @@ TEST_P(SpatialAlgebra, RotationsKeepTheReferencePoint) {
   expect_near(dense(rotate_to_distal(X_AB, rotate_to_proximal(X_AB, W))), dense(W));
   const AccelerationTwist<double> A = random.acceleration();
   expect_near(dense(rotate_to_proximal(X_AB, rotate_to_distal(X_AB, A))), dense(A));
+}
+
+// A pose whose rotation leaves one axis in its place, perhaps reversed.
+Pose<double> plane_pose(Random& random, int axis, double sign) {
+  const double angle = 3.0 * random.number();
+  const double c = std::cos(angle), s = std::sin(angle);
+  EigenMatrix3 R = EigenMatrix3::Zero();
+  const int b = (axis + 1) % 3, d = (axis + 2) % 3;
+  R(axis, axis) = sign;
+  R(b, b) = c, R(d, b) = s, R(b, d) = -sign * s, R(d, d) = sign * c;
+  return {{R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)},
+          random.vector()};
+}
+
+std::vector<Pose<double>> poses_of_every_kind(Random& random) {
+  std::vector<Pose<double>> poses = {random.pose()};
+  for (const int axis : {0, 1, 2}) {
+    for (const double sign : {1.0, -1.0}) poses.push_back(plane_pose(random, axis, sign));
+  }
+  return poses;
+}
+
+TEST_P(SpatialAlgebra, MatricesTurnOnBothSidesWhateverTheAxis) {
+  const Symmetric3<double> J = random.inertia().rotational;
+  const Matrix3<double> H = {random.number(), random.number(), random.number(),
+                             random.number(), random.number(), random.number(),
+                             random.number(), random.number(), random.number()};
+  for (const Pose<double>& X : poses_of_every_kind(random)) {
+    const EigenMatrix3 R = dense(X.R);
+    expect_near(dense(rotate(X.R, H)), R * dense(H) * R.transpose());
+    expect_near(dense(rotate(X.R, J)), R * dense(J) * R.transpose());
+  }
+}
+
+TEST_P(SpatialAlgebra, InertiasMoveToProximalFramesByCongruence) {
+  const RigidBodyInertia<double> I_B = random.inertia();
+  for (const Pose<double>& X_AB : poses_of_every_kind(random)) {
+    const Matrix6 T = motion_transform(X_AB);
+    expect_near(dense(transform_to_proximal(X_AB, I_B)), T.transpose() * dense(I_B) * T);
+  }
+}
+
+ArticulatedInertia<double> random_articulated(Random& random) {
+  const auto symmetric = [&] { return random.inertia().rotational; };
+  ArticulatedInertia<double> I = articulated(random.inertia());
+  I.H = I.H + Matrix3<double>{random.number(), random.number(), random.number(),
+                              random.number(), random.number(), random.number(),
+                              random.number(), random.number(), random.number()};
+  I.J = I.J + symmetric();
+  I.M = I.M + symmetric();
+  return I;
+}
+
+Matrix6 dense(const ArticulatedInertia<double>& I) {
+  Matrix6 result;
+  result << dense(I.J), dense(I.H), dense(I.H).transpose(), dense(I.M);
+  return result;
+}
+
+TEST_P(SpatialAlgebra, ArticulatedInertiasMoveToProximalFramesByCongruence) {
+  const ArticulatedInertia<double> I_B = random_articulated(random);
+  for (const Pose<double>& X_AB : poses_of_every_kind(random)) {
+    const Matrix6 T = motion_transform(X_AB);
+    expect_near(dense(transform_to_proximal(X_AB, I_B)), T.transpose() * dense(I_B) * T);
+  }
+}
+
+TEST_P(SpatialAlgebra, ABodyWithNothingOnItIsArticulatedAsARigidOne) {
+  const RigidBodyInertia<double> I = random.inertia();
+  expect_near(dense(articulated(I)), dense(I));
+}
+
+TEST_P(SpatialAlgebra, UnitWrenchesAreColumnsOfTheInertia) {
+  const RigidBodyInertia<double> I = random.inertia();
+  const ArticulatedInertia<double> IA = random_articulated(random);
+  expect_near(dense(wrench_of_revolute(I)), dense(I).col(2));
+  expect_near(dense(wrench_of_prismatic(I)), dense(I).col(5));
+  expect_near(dense(wrench_of_revolute(IA)), dense(IA).col(2));
+  expect_near(dense(wrench_of_prismatic(IA)), dense(IA).col(5));
+}
+
+TEST_P(SpatialAlgebra, AFreeJointTakesItsDirectionOutOfTheInertia) {
+  ArticulatedInertia<double> I = random_articulated(random);
+  I.J.zz += 5.0;
+  I.M.zz += 5.0;
+  for (const int column : {2, 5}) {
+    const Wrench<double> U = column == 2 ? wrench_of_revolute(I) : wrench_of_prismatic(I);
+    const double D = dense(U)(column);
+    const Matrix6 expected = dense(I) - dense(U) * dense(U).transpose() / D;
+    const ArticulatedInertia<double> projected = project(I, U, D);
+    expect_near(dense(projected), expected);
+    EXPECT_LT(dense(projected).col(column).norm(), 1e-14);
+
+    const Wrench<double> W = random.wrench();
+    const AccelerationTwist<double> A = random.acceleration();
+    const double u = random.number();
+    expect_near(dense(project(W, U, D, u)), dense(W) + dense(U) * (u / D));
+    // With that acceleration of the joint, the force along the joint is u.
+    const double qdd = joint_acceleration(u, U, D, A);
+    Vector6 total = dense(A);
+    total(column) += qdd;
+    EXPECT_NEAR((dense(I) * total)(column), u, 1e-12);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(RandomValues, SpatialAlgebra, testing::Range(1U, 31U));

@@ -46,6 +46,10 @@ class Traced {
   friend Traced cos(const Traced& a) {
     return a.dag_ != nullptr ? Traced(*a.dag_, a.dag_->cos(a.ref_)) : Traced(std::cos(a.value_));
   }
+  // Whether it is known, while recording, to be this number.
+  friend bool is_exactly(const Traced& a, double value) {
+    return a.dag_ != nullptr ? a.dag_->is_constant(a.ref_, value) : a.value_ == value;
+  }
   // `x` where a < b, otherwise `y`; formulas of `math` call it instead of branching.
   friend Traced select_less(const Traced& a, const Traced& b, const Traced& x, const Traced& y) {
     Dag* dag = either(a, b);
