@@ -1,0 +1,197 @@
+// sinew convert FILE SOURCE TARGET: how one data prototype becomes another: explained, as source
+// code, or done on numbers.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+
+#include "options.h"
+#include "output.h"
+#include "sinew/base/error.h"
+#include "sinew/blocks/elaborate.h"
+#include "sinew/blocks/parser.h"
+#include "sinew/data/emit.h"
+#include "sinew/data/engine.h"
+#include "sinew/data/plan.h"
+
+namespace sinew::cli {
+namespace {
+
+struct ConvertOptions {
+  std::string file, source, target;
+  bool explain = false, allow_lossy = false;
+  std::string emit, function_name, values, output;
+  std::vector<std::string> types;
+};
+
+[[noreturn]] void fail(const data::Prototype& prototype, std::string what, std::string remedy) {
+  throw Error(
+      {prototype.place, prototype.name, std::move(what), std::move(remedy), Severity::kError, {}});
+}
+
+std::string list_prototypes(const data::Library& library) {
+  std::string text;
+  for (const data::Prototype& prototype : library.prototypes) {
+    text += fmt::format(
+        "{:<28} {} {} ({})\n", prototype.name, prototype.semantic,
+        prototype.coordinates.empty() ? "composed" : prototype.coordinates,
+        prototype.representation.context.empty() ? "struct" : prototype.representation.context);
+  }
+  return text;
+}
+
+// A value's memory with a name for each number: what --values reads and prints.
+struct Value {
+  std::vector<data::Accessor> paths;
+  std::vector<data::Access> places;
+  std::vector<char> memory;
+};
+
+Value value_of(const data::Prototype& prototype) {
+  const data::Type& type = *prototype.representation.type;
+  Value value;
+  value.paths = data::list_accessors(type);
+  for (const data::Accessor& path : value.paths) {
+    // A lone number has no path of its own.
+    const data::Accessor whole{false, {"value"}};
+    std::string why;
+    const auto access = data::find_access(type, path.steps.empty() ? whole : path, &why);
+    if (!access || !access->in_memory || access->scalar != data::ScalarKind::kFloat64) {
+      fail(prototype, "its values are not all doubles in fixed memory",
+           "use --values with prototypes of doubles, --emit with others");
+    }
+    value.places.push_back(*access);
+  }
+  value.memory.resize(type.size);
+  return value;
+}
+
+std::vector<double> parse_numbers(const std::string& text) {
+  std::vector<double> numbers;
+  const char *at = text.data(), *end = text.data() + text.size();
+  while (true) {
+    double number = 0;
+    const auto [next, status] = std::from_chars(at, end, number);
+    if (status != std::errc{} || (next != end && *next != ',')) {
+      throw Error({{},
+                   "--values",
+                   fmt::format("'{}' is no list of numbers", text),
+                   "write 0.1,0.2,0.3",
+                   Severity::kError,
+                   {}});
+    }
+    numbers.push_back(number);
+    if (next == end) return numbers;
+    at = next + 1;
+  }
+}
+
+std::string convert_values(const data::Library& library, const data::Plan& plan,
+                           const ConvertOptions& options) {
+  const data::Prototype& source = library.prototypes[library.prototypes[plan.source].owner];
+  const data::Prototype& target = library.prototypes[library.prototypes[plan.target].owner];
+  Value from = value_of(source), to = value_of(target);
+  const std::vector<double> numbers = parse_numbers(options.values);
+  if (numbers.size() != from.places.size()) {
+    fail(source,
+         fmt::format("it has {} numbers, {} were given", from.places.size(), numbers.size()),
+         "give them in the order of memory");
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    std::memcpy(from.memory.data() + from.places[i].offsets[0], &numbers[i], sizeof(double));
+  }
+  data::EngineOptions engine;
+  engine.library_directories = {std::filesystem::path(options.file).parent_path().string()};
+  data::make_converter(library, plan, engine).run(from.memory.data(), to.memory.data());
+  std::string text;
+  for (std::size_t i = 0; i < to.places.size(); ++i) {
+    double number = 0;
+    std::memcpy(&number, to.memory.data() + to.places[i].offsets[0], sizeof number);
+    text += fmt::format("{}{}", i > 0 ? "," : "", number);
+  }
+  return text + "\n";
+}
+
+// What a person has to know of a conversion that is taken without --explain.
+void print_marks(const std::vector<data::Segment>& segments) {
+  for (const data::Segment& segment : segments) {
+    for (const std::string& loss : segment.losses) {
+      std::cerr << fmt::format("note: {} -> {} loses {}\n", segment.from, segment.to, loss);
+    }
+    if (segment.one_way) {
+      std::cerr << fmt::format("note: {} -> {} is one-way\n", segment.from, segment.to);
+    }
+    for (const auto& [member, inner] : segment.members) print_marks(inner);
+  }
+}
+
+}  // namespace
+
+int run_convert(Arguments arguments) {
+  CLI::App app(
+      "How one data prototype becomes another: explained, as source code, or done on numbers. "
+      "Without SOURCE "
+      "and TARGET, the prototypes of the file.",
+      "sinew convert");
+  ConvertOptions options;
+  app.add_option("FILE", options.file, "A .blocks file")->required();
+  auto* source = app.add_option("SOURCE", options.source,
+                                "The prototype to convert; PROTOTYPE.MEMBER for a part");
+  app.add_option("TARGET", options.target, "The prototype to convert to");
+  app.add_flag("--explain", options.explain,
+               "Each step, its type, what it costs and what it loses (the default)");
+  app.add_option("--emit", options.emit, "A header with one inline function")
+      ->check(CLI::IsMember({"c", "cpp"}));
+  app.add_option("--name", options.function_name,
+                 "The function's name; SOURCE_to_TARGET without it");
+  app.add_option("--values", options.values,
+                 "Convert these numbers (in the order of memory), print the result");
+  app.add_flag("--allow-lossy", options.allow_lossy, "Take steps that lose something");
+  app.add_option("--types", options.types,
+                 "Directories to look for .msg, .asn, .idl, .smdsd files in");
+  app.add_option("-o,--output", options.output, "Write there instead of to standard output");
+  if (const auto code = parse(app, std::move(arguments))) return *code;
+  if (source->count() > 0 && options.target.empty()) {
+    std::cerr << "sinew convert: TARGET is missing\n";
+    return kBadUsage;
+  }
+
+  blocks::LoadOptions load;
+  load.type_directories = options.types;
+  const data::Library library =
+      blocks::load_library(blocks::parse(read_input(options.file), options.file), load);
+  for (const Problem& warning : library.warnings) std::cerr << to_string(warning) << "\n";
+  if (options.source.empty()) {
+    write_output(options.output, list_prototypes(library));
+    return kOk;
+  }
+  data::PlanOptions plan_options;
+  plan_options.allow_lossy = options.allow_lossy;
+  const data::Plan plan = data::find_plan(library, options.source, options.target, plan_options);
+
+  std::string text;
+  if (options.explain || (options.emit.empty() && options.values.empty())) {
+    text = data::explain(library, plan);
+    // The explanation of an emitted conversion is for the person, the code for the file.
+    if (!options.emit.empty()) {
+      std::cerr << text;
+      text.clear();
+    }
+  } else {
+    print_marks(data::segments_of(library, plan));
+  }
+  if (!options.emit.empty()) {
+    data::EmitOptions emit;
+    emit.language = options.emit == "c" ? data::SourceLanguage::kC : data::SourceLanguage::kCpp;
+    emit.function_name = options.function_name;
+    emit.origin = std::filesystem::path(options.file).filename().string();
+    text += data::emit(library, plan, emit);
+  }
+  if (!options.values.empty()) text += convert_values(library, plan, options);
+  write_output(options.output, text);
+  return kOk;
+}
+
+}  // namespace sinew::cli
