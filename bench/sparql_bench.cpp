@@ -1,0 +1,163 @@
+// The queries of bench/sparql/ on 1, 8 and 75 robots side by side (some 1,300, 10,800 and 101,000
+// triples).
+//
+//   bench_sparql                                 prepared queries, anchors rotating; and preparing
+//   bench_sparql --dump=FILE --copies=8          the data as N-Quads, for bench/sparql_peers
+//   bench_sparql --table --copies=8              name, rows in all, ns per query, µs to prepare;
+//   tab-separated
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "sinew/rdf/sparql/engine.h"
+#include "sparql_data.h"
+
+namespace {
+
+using namespace sinew;
+using bench::QueryFile;
+
+const graph::Store& robots(std::size_t copies, graph::Store** writable = nullptr) {
+  static std::map<std::size_t, std::unique_ptr<graph::Store>> stores;
+  auto& store = stores[copies];
+  if (!store) {
+    store = std::make_unique<graph::Store>();
+    bench::load_robots(*store, copies);
+  }
+  if (writable) *writable = store.get();
+  return *store;
+}
+
+std::vector<std::string_view> views(const std::vector<std::string>& strings) {
+  return {strings.begin(), strings.end()};
+}
+
+struct Anchored {
+  std::shared_ptr<const rdf::sparql::Prepared> query;
+  std::vector<std::vector<graph::Id>> anchors;
+  std::size_t next = 0;
+
+  Anchored(graph::Store& store, const QueryFile& file) {
+    const auto names = views(file.parameters);
+    query = rdf::sparql::prepare(store, file.text, names);
+    const auto answer = rdf::sparql::query(store.view(), store.terms(), file.anchors);
+    anchors = answer.results.rows;
+  }
+  std::size_t run(const graph::View& view, const std::vector<graph::Id>& anchor) const {
+    if (query->is_ask()) return query->ask(view, anchor) ? 1 : 0;
+    return query->select(view, anchor, [](std::span<const graph::Id> row) {
+      benchmark::DoNotOptimize(row.data());
+      return true;
+    });
+  }
+};
+
+void run_query(benchmark::State& state, const QueryFile& file, std::size_t copies) {
+  graph::Store* store = nullptr;
+  robots(copies, &store);
+  if (store->view().size() == 0) return state.SkipWithError("no published models here");
+  const Anchored query(*store, file);
+  const graph::View view = store->view();
+  std::size_t next = 0;
+  std::size_t rows = 0;
+  for (auto _ : state) {
+    rows += query.run(view, query.anchors[next]);
+    next = next + 1 < query.anchors.size() ? next + 1 : 0;
+  }
+  state.counters["anchors"] = static_cast<double>(query.anchors.size());
+  state.counters["rows"] =
+      benchmark::Counter(static_cast<double>(rows), benchmark::Counter::kAvgIterations);
+}
+
+void prepare_query(benchmark::State& state, const QueryFile& file) {
+  graph::Store* store = nullptr;
+  robots(8, &store);
+  const auto names = views(file.parameters);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(rdf::sparql::prepare(*store, file.text, names));
+  }
+}
+
+// The same figures as tab-separated text, for the comparison with other engines.
+void print_table(std::size_t copies) {
+  using Clock = std::chrono::steady_clock;
+  using Nanoseconds = std::chrono::duration<double, std::nano>;
+  graph::Store* store = nullptr;
+  robots(copies, &store);
+  for (const QueryFile& file : bench::query_files()) {
+    const auto names = views(file.parameters);
+    const auto prepare_start = Clock::now();
+    constexpr int kPrepares = 50;
+    for (int i = 0; i < kPrepares; ++i) {
+      benchmark::DoNotOptimize(rdf::sparql::prepare(*store, file.text, names));
+    }
+    const double prepare_us = Nanoseconds(Clock::now() - prepare_start).count() / kPrepares / 1000;
+    const Anchored query(*store, file);
+    const graph::View view = store->view();
+    std::size_t rows = 0;
+    for (const auto& anchor : query.anchors) rows += query.run(view, anchor);
+    std::vector<double> rounds;
+    for (int round = 0; round < 21; ++round) {
+      const auto start = Clock::now();
+      std::size_t count = 0;
+      while (Nanoseconds(Clock::now() - start).count() < 5e6) {
+        for (const auto& anchor : query.anchors) query.run(view, anchor);
+        count += query.anchors.size();
+      }
+      rounds.push_back(Nanoseconds(Clock::now() - start).count() / static_cast<double>(count));
+    }
+    std::sort(rounds.begin(), rounds.end());
+    std::cout << fmt::format("{}\t{}\t{}\t{:.1f}\t{:.1f}\n", file.name, query.anchors.size(), rows,
+                             rounds[rounds.size() / 2], prepare_us);
+  }
+}
+
+void dump(const std::string& path, std::size_t copies) {
+  graph::Store* store = nullptr;
+  robots(copies, &store);
+  std::ofstream out(path);
+  const graph::Terms& terms = store->terms();
+  const auto write = [&](const graph::Quad& quad) {
+    out << terms.to_string(quad.subject) << ' ' << terms.to_string(quad.predicate) << ' '
+        << terms.to_string(quad.object) << " .\n";
+    return true;
+  };
+  store->view().match({}, {}, {}, graph::Dataset::kUnion, write);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string dump_to;
+  std::size_t copies = 8;
+  bool table = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (argument.starts_with("--dump=")) dump_to = argument.substr(7);
+    if (argument.starts_with("--copies=")) copies = std::stoul(std::string(argument.substr(9)));
+    if (argument == "--table") table = true;
+  }
+  if (!dump_to.empty() || table) {
+    if (!dump_to.empty()) dump(dump_to, copies);
+    if (table) print_table(copies);
+    return 0;
+  }
+  benchmark::Initialize(&argc, argv);
+  for (const QueryFile& file : bench::query_files()) {
+    for (const std::size_t size : {1, 8, 75}) {
+      benchmark::RegisterBenchmark(
+          (file.name + "/" + std::to_string(size)).c_str(),
+          [file, size](benchmark::State& state) { run_query(state, file, size); });
+    }
+    benchmark::RegisterBenchmark(("prepare/" + file.name).c_str(), [file](benchmark::State& state) {
+      prepare_query(state, file);
+    })->Unit(benchmark::kMicrosecond);
+  }
+  benchmark::RunSpecifiedBenchmarks();
+}
