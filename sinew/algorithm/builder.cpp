@@ -37,10 +37,9 @@ std::uint32_t Builder::find(std::string_view slot, Id element) const {
   return found == by_slot_.end() ? kNoIndex : found->second;
 }
 
-std::string Builder::unique_name(std::string_view slot, Id element) {
+std::string Builder::unique_name(std::string_view slot, std::string_view label) {
   std::string name(slot);
-  name += '.';
-  name += short_name(terms_.text(element));
+  if (label != kWholeRobot) (name += '.') += label;
   // Elements of different namespaces may share their last segment.
   const std::uint32_t use = ++name_uses_[name];
   return use == 1 ? name : name + "-" + std::to_string(use);
@@ -56,7 +55,8 @@ std::uint32_t Builder::block(const BlockSpec& spec) {
   Block block;
   block.id = terms_.derived(names_.data_block, {algorithm_.id, key.slot, spec.represents});
   block.slot = spec.slot;
-  block.name = unique_name(spec.slot, spec.represents);
+  block.name = unique_name(
+      spec.slot, spec.label.empty() ? short_name(terms_.text(spec.represents)) : spec.label);
   block.quantity = quantity;
   block.represents = spec.represents;
   block.symbols = {spec.of, spec.wrt, spec.reference, spec.seen_by};
@@ -160,13 +160,12 @@ void Builder::write(const Closure& closure) {
   if (closure.about) add(closure.id, names_.about, closure.about);
 }
 
-void Builder::output(std::uint32_t index, std::string_view name) {
+void Builder::output(std::uint32_t index) {
   Block& block = algorithm_.blocks[index];
   if (block.output) return;
   block.output = true;
   // An input that is handed on keeps its place among the inputs.
   if (block.role != Role::kInput) block.index = outputs_++;
-  if (!name.empty() && name != block.slot) block.name = unique_name(name, block.represents);
 }
 
 void Builder::finish() {

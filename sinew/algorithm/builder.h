@@ -26,11 +26,14 @@ struct BlockSpec {
   std::string_view quantity;
   graph::Id of = {}, wrt = {}, reference = {}, seen_by = {};
   Role role = Role::kInternal;
-  bool prismatic = false;  // a translational joint's: the quantity's other unit
-  std::uint32_t size = 0;  // where the quantity leaves it open
+  bool prismatic = false;      // a translational joint's: the quantity's other unit
+  std::uint32_t size = 0;      // where the quantity leaves it open
   std::string_view unit = {};  // where the quantity leaves it open
   std::span<const double> value = {};
+  // The part of its name after the dot, where it is not the element's; kWholeRobot: no such part.
+  std::string_view label = {};
 };
+inline constexpr std::string_view kWholeRobot = "*";
 
 // Why a closure is made.
 struct Cause {
@@ -55,8 +58,8 @@ class Builder {
   void closure_of_many(std::string_view operation, std::span<const std::uint32_t> many,
                        std::initializer_list<std::uint32_t> others, const Cause& cause);
 
-  // Hands a block out, under the name NAME.ELEMENT, after the outputs so far.
-  void output(std::uint32_t block, std::string_view name = {});
+  // Hands a block out, after the outputs so far.
+  void output(std::uint32_t block);
 
   // Writes what is only known at the end (the schedule, the interface) and checks the whole. The
   // builder is not to be used afterwards.
@@ -84,7 +87,7 @@ class Builder {
   void write(const Closure& closure);
   void append(const Operator& op, std::vector<std::uint32_t> arguments,
               std::vector<std::uint32_t> counts, const Cause& cause);
-  std::string unique_name(std::string_view slot, graph::Id element);
+  std::string unique_name(std::string_view slot, std::string_view label);
 
   graph::Terms& terms_;
   graph::Transaction& transaction_;

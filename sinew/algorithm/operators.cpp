@@ -150,6 +150,90 @@ constexpr Row kRows[] = {
     // A body's own wrench and that which a successor hands on to it.
     {"accumulate-wrench", SINEW_DYNAMICS "AddWrench", "in1:wrench in2:wrench -> out:wrench",
      "in1.at = in2.at; out.at = in1.at; out.of = in1.of", "W = W_1 + W_2"},
+
+    // Inertias of several bodies, and the wrench that one unit of joint acceleration takes: the
+    // columns from
+    // which the mass matrix and the articulated-body algorithm are made. A force for one unit of
+    // acceleration is a joint-force.
+    {"transform-rigid-body-inertia-to-proximal",
+     SINEW_OWN "transform-rigid-body-inertia-to-proximal",
+     "pose:pose from:rigid-body-inertia -> to:rigid-body-inertia",
+     "from.at = pose.of; to.at = pose.wrt; to.of = from.of",
+     "h_A = R h_B + m p, I_A = R I_B R' and Steiner's theorem"},
+    {"accumulate-rigid-body-inertia", SINEW_OWN "accumulate-rigid-body-inertia",
+     "in1:rigid-body-inertia in2:rigid-body-inertia -> out:rigid-body-inertia",
+     "in1.at = in2.at; out.at = in1.at; out.of = in1.of", "I = I_1 + I_2"},
+    {"wrench-of-revolute-from-rigid-body-inertia",
+     SINEW_OWN "wrench-of-revolute-from-rigid-body-inertia",
+     "inertia:rigid-body-inertia -> wrench:wrench",
+     "wrench.at = inertia.at; wrench.of = inertia.of", "W = I (0 0 1, 0 0 0)"},
+    {"wrench-of-prismatic-from-rigid-body-inertia",
+     SINEW_OWN "wrench-of-prismatic-from-rigid-body-inertia",
+     "inertia:rigid-body-inertia -> wrench:wrench",
+     "wrench.at = inertia.at; wrench.of = inertia.of", "W = I (0 0 0, 0 0 1)"},
+    {"articulated-from-rigid-body-inertia", SINEW_OWN "articulated-from-rigid-body-inertia",
+     "inertia:rigid-body-inertia -> articulated:articulated-body-inertia",
+     "articulated.at = inertia.at; articulated.of = inertia.of", "J = I, H = [h]x, M = m 1"},
+    {"accumulate-articulated-body-inertia", SINEW_OWN "accumulate-articulated-body-inertia",
+     "in1:articulated-body-inertia in2:articulated-body-inertia -> out:articulated-body-inertia",
+     "in1.at = in2.at; out.at = in1.at; out.of = in1.of", "I = I_1 + I_2"},
+    {"transform-articulated-body-inertia-to-proximal",
+     SINEW_OWN "transform-articulated-body-inertia-to-proximal",
+     "pose:pose from:articulated-body-inertia -> to:articulated-body-inertia",
+     "from.at = pose.of; to.at = pose.wrt; to.of = from.of", "I_A = X^-T I_B X^-1"},
+    {"wrench-of-revolute-from-articulated-body-inertia",
+     SINEW_OWN "wrench-of-revolute-from-articulated-body-inertia",
+     "inertia:articulated-body-inertia -> wrench:wrench",
+     "wrench.at = inertia.at; wrench.of = inertia.of", "U = I (0 0 1, 0 0 0)"},
+    {"wrench-of-prismatic-from-articulated-body-inertia",
+     SINEW_OWN "wrench-of-prismatic-from-articulated-body-inertia",
+     "inertia:articulated-body-inertia -> wrench:wrench",
+     "wrench.at = inertia.at; wrench.of = inertia.of", "U = I (0 0 0, 0 0 1)"},
+    // What the predecessor feels of a body behind a joint that is free to move.
+    {"project-articulated-body-inertia", SINEW_OWN "project-articulated-body-inertia",
+     "inertia:articulated-body-inertia unit-wrench:wrench unit-force:joint-force -> "
+     "projected:articulated-body-inertia",
+     "unit-wrench.at = inertia.at; projected.at = inertia.at; unit-wrench.of = inertia.of; "
+     "projected.of = inertia.of; unit-force.of = inertia.of; unit-force.seen = inertia.seen",
+     "I - U U' / D"},
+    {"project-wrench", SINEW_OWN "project-wrench",
+     "wrench:wrench unit-wrench:wrench unit-force:joint-force force:joint-force -> "
+     "projected:wrench",
+     "unit-wrench.at = wrench.at; projected.at = wrench.at; unit-wrench.of = wrench.of; "
+     "projected.of = wrench.of; unit-force.of = wrench.of; force.of = wrench.of; "
+     "unit-force.seen = wrench.seen; force.seen = wrench.seen",
+     "W + U u / D"},
+    {"joint-acceleration-from-force", SINEW_OWN "joint-acceleration-from-force",
+     "force:joint-force unit-wrench:wrench unit-force:joint-force "
+     "acceleration-twist:acceleration-twist -> acceleration:joint-acceleration",
+     "unit-wrench.of = force.of; unit-wrench.at = force.seen; unit-force.of = force.of; "
+     "unit-force.seen = force.seen; acceleration-twist.at = force.seen; "
+     "acceleration-twist.of = force.wrt; acceleration.of = force.of; acceleration.wrt = force.wrt; "
+     "acceleration.seen = force.seen",
+     "qdd = (u - U . A) / D"},
+    {"subtract-joint-force", SINEW_OWN "subtract-joint-force",
+     "in1:joint-force in2:joint-force -> difference:joint-force",
+     "in2.of = in1.of; in2.wrt = in1.wrt; in2.seen = in1.seen; difference.of = in1.of; "
+     "difference.wrt = in1.wrt; difference.seen = in1.seen",
+     "u = tau_1 - tau_2"},
+
+    // The column of a geometric Jacobian: the twist of a point for one unit of joint velocity.
+    {"jacobian-column-revolute", SINEW_OWN "jacobian-column-revolute",
+     "joint-pose:pose point-pose:pose -> column:jacobian-column",
+     "point-pose.wrt = joint-pose.wrt; column.seen = joint-pose.wrt; column.ref = point-pose.of; "
+     "column.wrt = joint-pose.wrt; column.of = point-pose.of",
+     "(z, z x (p_point - p_joint)), z the joint's axis"},
+    {"jacobian-column-prismatic", SINEW_OWN "jacobian-column-prismatic",
+     "joint-pose:pose point-pose:pose -> column:jacobian-column",
+     "point-pose.wrt = joint-pose.wrt; column.seen = joint-pose.wrt; column.ref = point-pose.of; "
+     "column.wrt = joint-pose.wrt; column.of = point-pose.of",
+     "(0, z)"},
+    {"jacobian-from-columns", SINEW_OWN "jacobian-from-columns",
+     "columns*:jacobian-column -> jacobian:jacobian",
+     "jacobian.of = columns.of; jacobian.wrt = columns.wrt; jacobian.at = columns.at",
+     "6 x n, row by row"},
+    {"mass-matrix-from-entries", SINEW_OWN "mass-matrix-from-entries",
+     "entries*:joint-force -> mass-matrix:mass-matrix", "", "n x n, row by row"},
 };
 
 [[noreturn]] void fault(const Row& row, std::string_view what) {

@@ -12,7 +12,8 @@ constexpr std::uint8_t bit(Attribute attribute) {
 constexpr std::uint8_t kOf = bit(Attribute::kOf), kWrt = bit(Attribute::kWrt),
                        kSeen = bit(Attribute::kSeenBy), kReference = bit(Attribute::kReference);
 constexpr std::uint8_t kPose = kOf | kWrt, kJoint = kOf | kWrt | kSeen,
-                       kTwist = kOf | kWrt | kReference | kSeen, kAt = kOf | kReference | kSeen;
+                       kTwist = kOf | kWrt | kReference | kSeen, kAt = kOf | kReference | kSeen,
+                       kNone = 0;
 
 constexpr std::array kQuantities = {
     Quantity{"pose", 12, "UNITLESS M", "", kPose},
@@ -20,10 +21,16 @@ constexpr std::array kQuantities = {
     Quantity{"acceleration-twist", 6, "RAD-PER-SEC2 M-PER-SEC2", "", kTwist},
     Quantity{"wrench", 6, "N-M N", "", kAt},
     Quantity{"rigid-body-inertia", 10, "KiloGM M-KiloGM KiloGM-M2", "", kAt},
+    Quantity{"articulated-body-inertia", 21, "KiloGM-M2 M-KiloGM KiloGM", "", kAt},
     Quantity{"joint-position", 1, "RAD", "M", kJoint},
     Quantity{"joint-velocity", 1, "RAD-PER-SEC", "M-PER-SEC", kJoint},
     Quantity{"joint-acceleration", 1, "RAD-PER-SEC2", "M-PER-SEC2", kJoint},
     Quantity{"joint-force", 1, "N-M", "N", kJoint},
+    // Of a revolute joint: rotation, and metres for each radian; of a prismatic one the other
+    // units.
+    Quantity{"jacobian-column", 6, "UNITLESS M", "PER-M UNITLESS", kTwist},
+    Quantity{"jacobian", 0, "UNITLESS M", "", kTwist},
+    Quantity{"mass-matrix", 0, "KiloGM M-KiloGM KiloGM-M2", "", kNone},
 };
 
 }  // namespace

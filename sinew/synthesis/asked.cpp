@@ -11,6 +11,9 @@ constexpr AskedQuantity kAsked[] = {
     {"acceleration-twist", Element::kFrame, "acceleration-twist", "acceleration-twist", false},
     {"joint-force", Element::kJoint, "force", "force", true},
     {"bias-force", Element::kJoint, "bias-force", "bias-force", true},
+    {"joint-acceleration", Element::kJoint, "acceleration", "acceleration", true},
+    {"mass-matrix", Element::kRobot, "mass-matrix", "mass-matrix", true},
+    {"jacobian", Element::kFrame, "jacobian", "jacobian", false},
     {"gravity-force", Element::kJoint, "gravity-force", "gravity-force", true},
 };
 

@@ -45,6 +45,23 @@ BlockIndex Blackboard::find(std::string_view slot, Id element) const {
   return block == found->second.end() ? kNoIndex : block->second;
 }
 
+void Blackboard::carry(std::string_view slot, Id element, const Carried& effect) {
+  std::vector<Carried>& list = carried_[{std::string(slot), element}];
+  for (Carried& one : list)
+    if (one.origin == effect.origin) {
+      one = effect;
+      return;
+    }
+  list.push_back(effect);
+}
+
+const std::vector<Blackboard::Carried>& Blackboard::carried(std::string_view slot,
+                                                            Id element) const {
+  static const std::vector<Carried> none;
+  const auto found = carried_.find({std::string(slot), element});
+  return found == carried_.end() ? none : found->second;
+}
+
 bool Context::has(std::string_view slot, Id element) const {
   return board.find(slot, element) != kNoIndex;
 }
@@ -68,11 +85,24 @@ BlockIndex Context::make(const algorithm::BlockSpec& spec) {
   return made;
 }
 
+algorithm::Cause Context::cause(Id about) const {
+  graph::Terms& terms = builder.terms();
+  return {step ? terms.iri(std::string(algorithm::kStepNamespace) + step->name) : Id{}, about};
+}
+
 void Context::closure(std::string_view operation, std::initializer_list<BlockIndex> arguments,
                       Id about) {
-  const Id iri =
-      step ? builder.terms().iri(std::string(algorithm::kStepNamespace) + step->name) : Id{};
-  builder.closure(operation, arguments, {iri, about});
+  builder.closure(operation, arguments, cause(about));
+}
+
+void Context::closure_of_many(std::string_view operation, std::span<const BlockIndex> many,
+                              std::initializer_list<BlockIndex> others, Id about) {
+  builder.closure_of_many(operation, many, others, cause(about));
+}
+
+Id Context::pair(Id a, Id b) {
+  graph::Terms& terms = builder.terms();
+  return terms.derived(terms.iri(std::string(algorithm::kAlgorithmNamespace) + "Pair"), {a, b});
 }
 
 std::vector<double> Context::numbers(Id coordinate) const {

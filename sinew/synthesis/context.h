@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -29,9 +30,19 @@ class Blackboard {
   // algorithm::kNoIndex when the slot is empty.
   BlockIndex find(std::string_view slot, Id element) const;
 
+  // Several effects that are kept apart, each with the element that it comes from: the forces that
+  // reach a body, one for each driver or joint.
+  struct Carried {
+    Id origin;
+    BlockIndex block;
+  };
+  void carry(std::string_view slot, Id element, const Carried& effect);
+  const std::vector<Carried>& carried(std::string_view slot, Id element) const;
+
  private:
   std::unordered_map<std::string_view, std::unordered_map<Id, BlockIndex>> slots_;
   std::vector<std::unique_ptr<std::string>> names_;
+  std::map<std::pair<std::string, Id>, std::vector<Carried>> carried_;
 };
 
 struct Context {
@@ -55,6 +66,14 @@ struct Context {
   BlockIndex make(const algorithm::BlockSpec& spec);
   // Makes a closure for a model element, in the name of the running step.
   void closure(std::string_view operation, std::initializer_list<BlockIndex> arguments, Id about);
+
+  void closure_of_many(std::string_view operation, std::span<const BlockIndex> many,
+                       std::initializer_list<BlockIndex> others, Id about);
+
+  algorithm::Cause cause(Id about) const;
+
+  // A node that stands for two elements: an entry of a matrix.
+  Id pair(Id a, Id b);
 
   // The numbers of a coordinate of the normalised tree.
   std::vector<double> numbers(Id coordinate) const;

@@ -20,6 +20,16 @@ SELECT ?child ?joint ?kind ?joint_frame ?placement ?predecessor ?successor ?inde
   ?successor tree:frame ?child .
 })";
 
+#define SINEW_ASKS_PREFIX SINEW_TREE_PREFIX "PREFIX sa: <https://w3id.org/sinew/algorithm#>\n"
+
+// From a body's frame to the frames fixed to it that are asked for.
+inline constexpr std::string_view kToAskedFrames = SINEW_ASKS_PREFIX R"(
+SELECT ?child ?placement ?body WHERE {
+  ?child tree:fixed-to ?node ; tree:placement ?placement .
+  ?algorithm sa:asks ?child .
+  ?body tree:frame ?node .
+})";
+
 // Conditions on ?node, or on an edge's ?parent.
 inline constexpr std::string_view kIsRoot =
     SINEW_TREE_PREFIX "ASK { FILTER NOT EXISTS { ?joint tree:successor-frame ?node } }";

@@ -24,6 +24,7 @@ class Planner {
     for (const Wish& wish : wishes) {
       std::vector<std::string> missing;
       if (!obtain(wish.slot, "asked: " + wish.asked, missing)) refuse(wish, missing, report);
+      in_progress_.clear();
     }
     use_what_is_there();
     return sort();
@@ -49,19 +50,19 @@ class Planner {
   // Whether a slot can be had; takes the steps for it. `missing` collects what would have helped.
   bool obtain(const std::string& slot, const std::string& why, std::vector<std::string>& missing) {
     if (given_.contains(slot) || made_.contains(slot)) return true;
-    if (!in_progress_.insert(slot).second) {
-      missing.push_back(slot);  // it would need itself
-      return false;
-    }
+    if (!in_progress_.insert(slot).second) return false;  // it would need itself
+    const bool asked = in_progress_.size() == 1;
+    const std::size_t mark = missing.size();
     bool found = false;
     for (const Step& step : steps_) {
       if (!contains(step.gives, slot)) continue;
       found = take(step, slot, why, missing);
       if (found) break;
     }
-    // What no step gives must be given; what a step would give from other things, those are
-    // missing.
-    if (!found && find_given_for(slot) != nullptr && missing.empty()) missing.push_back(slot);
+    // A driver on the way is what the user can add, whatever else would have led to it.
+    const bool driver = !asked && find_given_for(slot) != nullptr;
+    if (found || driver) missing.resize(mark);
+    if (!found && driver) missing.push_back(slot);
     in_progress_.erase(slot);
     return found;
   }

@@ -110,7 +110,7 @@ std::vector<Id> leaf_frames(graph::Store& store, const View& view, const Robot& 
     })");
   std::vector<Id> frames;
   for (const Row& row : rows)
-    if (row[0] != robot.root_body) frames.push_back(row[1]);
+    if (row[2] != robot.root_body) frames.push_back(row[1]);  // what is fixed to the base is no tip
   return frames;
 }
 

@@ -29,4 +29,17 @@ Step frame_pose_step();
 Step frame_twist_step();
 Step frame_acceleration_step();
 
+// steps_forward_dynamics.cpp
+Step own_articulated_inertia_step();
+Step articulated_inertia_step();
+Step drive_step();
+Step forward_dynamics_step();
+
+// steps_mass_matrix.cpp
+Step composite_inertia_step();
+Step mass_matrix_step();
+
+// steps_jacobian.cpp
+Step jacobian_step();
+
 }  // namespace sinew::synthesis

@@ -25,6 +25,13 @@ const std::vector<Step>& steps() {
       joint_force_step(Motion::kFull),
       joint_force_step(Motion::kBias),
       joint_force_step(Motion::kRest),
+      own_articulated_inertia_step(),
+      articulated_inertia_step(),
+      drive_step(),
+      forward_dynamics_step(),
+      composite_inertia_step(),
+      mass_matrix_step(),
+      jacobian_step(),
   };
   return list;
 }

@@ -8,15 +8,6 @@ namespace {
 
 using algorithm::Role;
 
-#define SINEW_ASKS_PREFIX SINEW_TREE_PREFIX "PREFIX sa: <https://w3id.org/sinew/algorithm#>\n"
-
-// From a body's frame to the frames fixed to it that are asked for.
-constexpr std::string_view kToAskedFrames = SINEW_ASKS_PREFIX R"(
-SELECT ?child ?placement ?body WHERE {
-  ?child tree:fixed-to ?node ; tree:placement ?placement .
-  ?algorithm sa:asks ?child .
-  ?body tree:frame ?node .
-})";
 constexpr std::string_view kAsksTwist = SINEW_ASKS_PREFIX "ASK { ?algorithm sa:asks-twist ?node }";
 constexpr std::string_view kAsksAcceleration =
     SINEW_ASKS_PREFIX "ASK { ?algorithm sa:asks-acceleration-twist ?node }";

@@ -1,0 +1,318 @@
+// Forward dynamics: the articulated-body algorithm (Featherstone 1983) for a robot at rest. What
+// velocities and gravity need is in the bias forces, which come from inverse dynamics; so the
+// expensive recursion over inertias carries no velocity terms, and the transforms need no Coriolis
+// parts.
+#include "sinew/base/error.h"
+#include "sinew/synthesis/joint_edge.h"
+#include "sinew/synthesis/step_list.h"
+
+namespace sinew::synthesis {
+namespace {
+
+using algorithm::BlockSpec;
+using algorithm::kNoIndex;
+using algorithm::Role;
+
+constexpr double kZero[21] = {};
+
+BlockSpec at(std::string_view slot, std::string_view quantity, Id represents, Id of, Id frame) {
+  return {.slot = slot,
+          .represents = represents,
+          .quantity = quantity,
+          .of = of,
+          .reference = frame,
+          .seen_by = frame};
+}
+
+void configure_own(Context& context, const Visit& visit) {
+  context.make(at("own-articulated-inertia", "articulated-body-inertia", visit.node, visit["body"],
+                  visit.node));
+}
+
+void compute_own(Context& context, const Visit& visit) {
+  context.closure("articulated-from-rigid-body-inertia",
+                  {context.block("inertia", visit["body"]),
+                   context.block("own-articulated-inertia", visit.node)},
+                  visit["body"]);
+}
+
+void configure_none(Context& context, const Visit& visit) {
+  BlockSpec spec = at("own-articulated-inertia", "articulated-body-inertia", visit.node,
+                      visit["body"], visit.node);
+  spec.role = Role::kConstant;
+  spec.value = kZero;
+  context.make(spec);
+}
+
+// A force on a joint that moves nothing has no finite acceleration.
+void refuse_weightless(Context& context, const Visit& visit) {
+  throw Error(Problem{{},
+                      std::string(context.view.terms().text(visit["body"])),
+                      "it ends a chain and has no inertia: its joint's acceleration is not defined",
+                      "state its inertia, or make its joint a fixed one",
+                      {},
+                      {}});
+}
+
+BlockIndex sum_so_far(const Context& context, std::string_view slot, std::string_view own,
+                      Id frame) {
+  const BlockIndex sum = context.board.find(slot, frame);
+  return sum != kNoIndex ? sum : context.block(own, frame);
+}
+
+BlockIndex inertia_so_far(const Context& context, Id frame) {
+  return sum_so_far(context, "articulated-inertia", "own-articulated-inertia", frame);
+}
+
+void configure_inertia(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  context.make(at("unit-wrench", "wrench", edge.joint, edge.successor, edge.child));
+  context.make({.slot = "unit-force",
+                .represents = edge.joint,
+                .quantity = "joint-force",
+                .of = edge.successor,
+                .wrt = edge.predecessor,
+                .seen_by = edge.child,
+                .prismatic = edge.kind == "prismatic"});
+}
+
+void compute_inertia(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  const BlockIndex unit = context.block("unit-wrench", edge.joint);
+  context.closure("wrench-of-" + edge.kind + "-from-articulated-body-inertia",
+                  {inertia_so_far(context, edge.child), unit}, edge.joint);
+  context.closure("force-from-wrench-" + edge.kind, {unit, context.block("unit-force", edge.joint)},
+                  edge.joint);
+}
+
+void configure_handing_on(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  const auto make = [&](std::string_view slot, Id of, Id frame) {
+    return context.make(at(slot, "articulated-body-inertia", edge.joint, of, frame));
+  };
+  make("projected-inertia", edge.successor, edge.child);
+  make("articulated-inertia-at-joint", edge.successor, edge.joint_frame);
+  make("articulated-inertia-at-predecessor", edge.successor, edge.parent);
+  context.board.put("articulated-inertia-before", edge.joint, inertia_so_far(context, edge.parent));
+  context.board.put("articulated-inertia", edge.parent,
+                    make("articulated-inertia-with", edge.predecessor, edge.parent));
+}
+
+void compute_handing_on(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  const auto block = [&](std::string_view slot) { return context.block(slot, edge.joint); };
+  const std::string_view transform = "transform-articulated-body-inertia-to-proximal";
+  context.closure("project-articulated-body-inertia",
+                  {inertia_so_far(context, edge.child), block("unit-wrench"), block("unit-force"),
+                   block("projected-inertia")},
+                  edge.joint);
+  context.closure(transform,
+                  {block("pose-across-joint"), block("projected-inertia"),
+                   block("articulated-inertia-at-joint")},
+                  edge.joint);
+  context.closure(transform,
+                  {block("placement"), block("articulated-inertia-at-joint"),
+                   block("articulated-inertia-at-predecessor")},
+                  edge.joint);
+  context.closure("accumulate-articulated-body-inertia",
+                  {block("articulated-inertia-before"), block("articulated-inertia-at-predecessor"),
+                   block("articulated-inertia-with")},
+                  edge.joint);
+}
+
+// The wrench that a body needs so far because of the forces of the joints behind it; nothing at a
+// leaf.
+BlockIndex drive_so_far(Context& context, Id frame, Id body) {
+  const BlockIndex sum = context.board.find("drive-wrench", frame);
+  if (sum != kNoIndex) return sum;
+  BlockSpec none = at("no-drive-wrench", "wrench", frame, body, frame);
+  none.role = Role::kConstant;
+  none.value = std::span(kZero).first(6);
+  return context.make(none);
+}
+
+void configure_drive(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  drive_so_far(context, edge.child, edge.successor);
+  for (const std::string_view slot : {"free-force", "force-behind", "drive-force"})
+    context.make({.slot = slot,
+                  .represents = edge.joint,
+                  .quantity = "joint-force",
+                  .of = edge.successor,
+                  .wrt = edge.predecessor,
+                  .seen_by = edge.child,
+                  .prismatic = edge.kind == "prismatic"});
+}
+
+// u = (tau - h) - S' W
+void compute_drive(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  const auto block = [&](std::string_view slot) { return context.block(slot, edge.joint); };
+  context.closure("subtract-joint-force",
+                  {block("force"), block("bias-force"), block("free-force")}, edge.joint);
+  context.closure("force-from-wrench-" + edge.kind,
+                  {drive_so_far(context, edge.child, edge.successor), block("force-behind")},
+                  edge.joint);
+  context.closure("subtract-joint-force",
+                  {block("free-force"), block("force-behind"), block("drive-force")}, edge.joint);
+}
+
+void configure_drive_on(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  const auto make = [&](std::string_view slot, Id of, Id frame) {
+    return context.make(at(slot, "wrench", edge.joint, of, frame));
+  };
+  make("projected-wrench", edge.successor, edge.child);
+  make("drive-wrench-at-joint", edge.successor, edge.joint_frame);
+  make("drive-wrench-at-predecessor", edge.successor, edge.parent);
+  context.board.put("drive-wrench-before", edge.joint,
+                    drive_so_far(context, edge.parent, edge.predecessor));
+  context.board.put("drive-wrench", edge.parent,
+                    make("drive-wrench-with", edge.predecessor, edge.parent));
+}
+
+void compute_drive_on(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  const auto block = [&](std::string_view slot) { return context.block(slot, edge.joint); };
+  context.closure("project-wrench",
+                  {drive_so_far(context, edge.child, edge.successor), block("unit-wrench"),
+                   block("unit-force"), block("drive-force"), block("projected-wrench")},
+                  edge.joint);
+  context.closure(
+      "transform-wrench-to-proximal",
+      {block("pose-across-joint"), block("projected-wrench"), block("drive-wrench-at-joint")},
+      edge.joint);
+  context.closure(
+      "transform-wrench-to-proximal",
+      {block("placement"), block("drive-wrench-at-joint"), block("drive-wrench-at-predecessor")},
+      edge.joint);
+  context.closure("accumulate-wrench",
+                  {block("drive-wrench-before"), block("drive-wrench-at-predecessor"),
+                   block("drive-wrench-with")},
+                  edge.joint);
+}
+
+void configure_root(Context& context, const Visit& visit) {
+  BlockSpec spec =
+      at("drive-acceleration", "acceleration-twist", visit.node, visit["body"], visit.node);
+  spec.wrt = context.reference;
+  spec.role = Role::kConstant;
+  spec.value = std::span(kZero).first(6);
+  context.make(spec);
+}
+
+void configure_result(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  const auto make = [&](std::string_view slot, Id represents, Id of, Id wrt, Id frame) {
+    BlockSpec spec = at(slot, "acceleration-twist", represents, of, frame);
+    spec.wrt = wrt;
+    context.make(spec);
+  };
+  make("drive-acceleration-at-joint", edge.joint, edge.predecessor, context.reference,
+       edge.joint_frame);
+  make("drive-acceleration-across-joint", edge.joint, edge.predecessor, context.reference,
+       edge.child);
+  make("drive-relative-acceleration", edge.joint, edge.successor, edge.predecessor, edge.child);
+  make("drive-acceleration", edge.child, edge.successor, context.reference, edge.child);
+  context.make({.slot = "acceleration",
+                .represents = edge.joint,
+                .quantity = "joint-acceleration",
+                .of = edge.successor,
+                .wrt = edge.predecessor,
+                .seen_by = edge.child,
+                .prismatic = edge.kind == "prismatic"});
+}
+
+void compute_result(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  const auto block = [&](std::string_view slot) { return context.block(slot, edge.joint); };
+  const std::string_view transform = "transform-acceleration-twist-to-distal-at-rest";
+  context.closure(transform,
+                  {block("placement"), context.block("drive-acceleration", edge.parent),
+                   block("drive-acceleration-at-joint")},
+                  edge.joint);
+  context.closure(transform,
+                  {block("pose-across-joint"), block("drive-acceleration-at-joint"),
+                   block("drive-acceleration-across-joint")},
+                  edge.joint);
+  context.closure("joint-acceleration-from-force",
+                  {block("drive-force"), block("unit-wrench"), block("unit-force"),
+                   block("drive-acceleration-across-joint"), block("acceleration")},
+                  edge.joint);
+  context.closure("acceleration-to-twist-" + edge.kind,
+                  {block("acceleration"), block("drive-relative-acceleration")}, edge.joint);
+  context.closure("add-acceleration-twist",
+                  {block("drive-acceleration-across-joint"), block("drive-relative-acceleration"),
+                   context.block("drive-acceleration", edge.child)},
+                  edge.child);
+}
+
+}  // namespace
+
+Step own_articulated_inertia_step() {
+  const std::string body(kBodyOfNode), moves(kIsNotRoot);
+  return {.name = "own-articulated-inertia",
+          .purpose = "each body by itself resists acceleration with its own inertia",
+          .direction = Direction::kLocal,
+          .expansion = std::string(kAcrossJoints),
+          .needs = {"inertia"},
+          .may_use = {},
+          .gives = {"own-articulated-inertia"},
+          .visitors = {
+              {Where::kNode, {moves, std::string(kHasInertia)}, body, configure_own, compute_own},
+              {Where::kNode, {moves, std::string(kHasNoInertia)}, body, configure_none, {}},
+              {Where::kNode,
+               {moves, std::string(kHasNoInertia), std::string(kIsLeaf)},
+               body,
+               refuse_weightless,
+               {}}}};
+}
+
+Step articulated_inertia_step() {
+  return {.name = "articulated-inertia",
+          .purpose = "each body hands on to its predecessor how it resists through a free joint",
+          .direction = Direction::kInward,
+          .expansion = std::string(kAcrossJoints),
+          .needs = {"placement", "pose-across-joint", "own-articulated-inertia"},
+          .may_use = {},
+          .gives = {"unit-wrench", "unit-force"},
+          .visitors = {{Where::kEdge, {}, {}, configure_inertia, compute_inertia},
+                       {Where::kEdge,
+                        {std::string(kParentIsNotRoot)},
+                        {},
+                        configure_handing_on,
+                        compute_handing_on}}};
+}
+
+Step drive_step() {
+  return {
+      .name = "joint-drive",
+      .purpose = "what joint forces leave beyond the bias drives the joints and the bodies before",
+      .direction = Direction::kInward,
+      .expansion = std::string(kAcrossJoints),
+      .needs = {"force", "bias-force", "unit-wrench", "unit-force", "placement",
+                "pose-across-joint"},
+      .may_use = {},
+      .gives = {"drive-force"},
+      .visitors = {{Where::kEdge, {}, {}, configure_drive, compute_drive},
+                   {Where::kEdge,
+                    {std::string(kParentIsNotRoot)},
+                    {},
+                    configure_drive_on,
+                    compute_drive_on}}};
+}
+
+Step forward_dynamics_step() {
+  return {.name = "forward-dynamics",
+          .purpose = "accelerations follow from the root outward",
+          .direction = Direction::kOutward,
+          .expansion = std::string(kAcrossJoints),
+          .needs = {"drive-force", "unit-wrench", "unit-force", "placement", "pose-across-joint"},
+          .may_use = {},
+          .gives = {"acceleration"},
+          .visitors = {
+              {Where::kNode, {std::string(kIsRoot)}, std::string(kBodyOfNode), configure_root, {}},
+              {Where::kEdge, {}, {}, configure_result, compute_result}}};
+}
+
+}  // namespace sinew::synthesis

@@ -1,0 +1,96 @@
+// Geometric Jacobians: the twist of a frame's origin, with the root's directions, for one unit of
+// each joint's velocity. Columns of joints that do not lead to the frame are zero.
+#include <algorithm>
+
+#include "sinew/synthesis/joint_edge.h"
+#include "sinew/synthesis/step_list.h"
+
+namespace sinew::synthesis {
+namespace {
+
+using algorithm::BlockSpec;
+using algorithm::Role;
+
+constexpr double kZero[6] = {};
+constexpr std::string_view kAsksJacobian =
+    SINEW_ASKS_PREFIX "ASK { ?algorithm sa:asks-jacobian ?node }";
+
+// The joints whose velocities are given, in their order.
+std::vector<const RobotJoint*> columns(const Context& context) {
+  std::vector<const RobotJoint*> joints;
+  for (const RobotJoint& joint : context.robot.joints)
+    if (context.scope.empty() || context.scope.contains(joint.frame)) joints.push_back(&joint);
+  return joints;
+}
+
+bool leads_to(const Context& context, const RobotJoint& joint, Id frame) {
+  const auto path = path_to(context.robot, context.view, frame);
+  return std::any_of(path.begin(), path.end(), [&](std::size_t index) {
+    return context.robot.joints[index].joint == joint.joint;
+  });
+}
+
+void configure(Context& context, const Visit& visit) {
+  const Id frame = visit.node, root = context.robot.root_frame;
+  const graph::Terms& terms = context.view.terms();
+  const auto joints = columns(context);
+  for (const RobotJoint* joint : joints) {
+    const std::string label = std::string(algorithm::short_name(terms.text(frame))) + "." +
+                              std::string(algorithm::short_name(terms.text(joint->joint)));
+    BlockSpec spec = {.slot = "jacobian-column",
+                      .represents = context.pair(frame, joint->joint),
+                      .quantity = "jacobian-column",
+                      .of = frame,
+                      .wrt = root,
+                      .reference = frame,
+                      .seen_by = root,
+                      .prismatic = joint->kind == "prismatic",
+                      .label = label};
+    if (!leads_to(context, *joint, frame)) {
+      spec.role = Role::kConstant;
+      spec.value = kZero;
+    }
+    context.make(spec);
+  }
+  context.make({.slot = "jacobian",
+                .represents = frame,
+                .quantity = "jacobian",
+                .of = frame,
+                .wrt = root,
+                .reference = frame,
+                .seen_by = root,
+                .size = static_cast<std::uint32_t>(6 * joints.size())});
+}
+
+void compute(Context& context, const Visit& visit) {
+  const Id frame = visit.node;
+  std::vector<BlockIndex> blocks;
+  for (const RobotJoint* joint : columns(context)) {
+    blocks.push_back(context.block("jacobian-column", context.pair(frame, joint->joint)));
+    if (!leads_to(context, *joint, frame)) continue;
+    context.closure(
+        "jacobian-column-" + joint->kind,
+        {context.block("pose", joint->frame), context.block("pose", frame), blocks.back()},
+        joint->joint);
+  }
+  context.closure_of_many("jacobian-from-columns", blocks, {context.block("jacobian", frame)},
+                          frame);
+}
+
+}  // namespace
+
+Step jacobian_step() {
+  const std::string asks(kAsksJacobian);
+  return {
+      .name = "jacobian",
+      .purpose = "each joint on the way moves the frame about or along its axis",
+      .direction = Direction::kInward,  // it looks at all poses at once, so they come first
+      .expansion = std::string(kAcrossJoints),
+      .needs = {"pose", "frame-pose"},
+      .may_use = {},
+      .gives = {"jacobian"},
+      .visitors = {{Where::kNode, {asks}, {}, configure, compute},
+                   {Where::kNode, {asks}, {}, configure, compute, std::string(kToAskedFrames)}}};
+}
+
+}  // namespace sinew::synthesis
