@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "sinew/base/error.h"
 
@@ -36,12 +37,11 @@ std::string_view Arena::concat(std::string_view first, std::string_view second) 
 }
 
 void Arena::throw_full() {
-  throw Error(Problem{{},
-                      "",
-                      "the document needs more than 1 GiB of memory",
-                      "split the document into several files",
-                      Severity::kError,
-                      "loading document failed"});
+  Problem problem;
+  problem.what = "the document needs more than 1 GiB of memory";
+  problem.remedy = "split the document into several files";
+  problem.code = "loading document failed";
+  throw Error(std::move(problem));
 }
 
 }  // namespace sinew::json

@@ -120,11 +120,6 @@ Value Value::at(Position position) const {
   return result;
 }
 
-std::string_view Value::text() const {
-  if (!is_string() && !is_number()) return {};
-  return {static_cast<const char*>(data_), size_};
-}
-
 double Value::number() const {
   const std::string_view digits = text();
   double result = 0;

@@ -48,7 +48,10 @@ class Value {
   bool is_true() const { return is_boolean() && size_ == 1; }
   bool is_string(std::string_view text) const { return is_string() && this->text() == text; }
   // A string's characters, a number as it was written; empty for every other kind.
-  std::string_view text() const;
+  std::string_view text() const {
+    if (!is_string() && !is_number()) return {};
+    return {static_cast<const char*>(data_), size_};
+  }
   // The nearest double to a number; infinity where it is beyond the range of a double.
   double number() const;
 

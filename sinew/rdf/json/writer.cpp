@@ -185,39 +185,40 @@ void append_canonical(std::string& out, const Value& value) {
 void append_quoted(std::string& out, std::string_view text) {
   static constexpr char kHex[] = "0123456789abcdef";
   out += '"';
-  for (const char c : text) {
+  std::size_t plain = 0;  // start of the characters that need no escape
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (static_cast<unsigned char>(c) >= 0x20 && c != '"' && c != '\\') continue;
+    out.append(text, plain, i - plain);
+    plain = i + 1;
+    out += '\\';
     switch (c) {
       case '"':
-        out += "\\\"";
-        break;
       case '\\':
-        out += "\\\\";
+        out += c;
         break;
       case '\b':
-        out += "\\b";
+        out += 'b';
         break;
       case '\f':
-        out += "\\f";
+        out += 'f';
         break;
       case '\n':
-        out += "\\n";
+        out += 'n';
         break;
       case '\r':
-        out += "\\r";
+        out += 'r';
         break;
       case '\t':
-        out += "\\t";
+        out += 't';
         break;
       default:
-        if (static_cast<unsigned char>(c) < 0x20) {
-          out += "\\u00";
-          out += kHex[c >> 4];
-          out += kHex[c & 15];
-        } else {
-          out += c;
-        }
+        out += "u00";
+        out += kHex[c >> 4];
+        out += kHex[c & 15];
     }
   }
+  out.append(text, plain);
   out += '"';
 }
 
@@ -262,10 +263,11 @@ std::string ecmascript_number(double value) {
   const int count = static_cast<int>(digits.size());
   const int point = exponent + 1;  // digits before the decimal point
   if (count <= point && point <= 21) return out + digits + std::string(point - count, '0');
-  if (0 < point && point <= 21) return out + digits.substr(0, point) + "." + digits.substr(point);
+  if (0 < point && point <= 21)
+    return out.append(digits, 0, point).append(".").append(digits, point);
   if (-6 < point && point <= 0) return out + "0." + std::string(-point, '0') + digits;
   out += digits[0];
-  if (count > 1) out += "." + digits.substr(1);
+  if (count > 1) out.append(".").append(digits, 1);
   out += exponent < 0 ? "e-" : "e+";
   return out + std::to_string(std::abs(exponent));
 }

@@ -35,7 +35,7 @@ std::string last_segment(std::string_view iri) {
   const std::string_view before_query = iri.substr(0, iri.find_first_of("?#"));
   const std::string_view segment = iri.substr(before_query.rfind('/') + 1);
   const bool is_safe = !segment.empty() && segment.find(':') == std::string_view::npos;
-  return is_safe ? std::string(segment) : "./" + std::string(segment);
+  return std::string(is_safe ? "" : "./").append(segment);
 }
 
 std::string_view text_of(const json::Value& object, std::string_view key) {
@@ -226,7 +226,7 @@ std::string_view Compactor::compact_iri(const Context& active, std::string_view 
   std::string relative = rdf::relative_iri(iri, active.base.text);
   // The empty reference is no identifier that anybody would expect.
   if (relative.empty()) relative = last_segment(iri);
-  if (has_keyword_form(relative)) relative.insert(0, "./");
+  if (has_keyword_form(relative)) relative = std::string("./").append(relative);
   return relative == iri ? iri : arena_.copy(relative);
 }
 

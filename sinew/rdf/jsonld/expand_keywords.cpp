@@ -138,7 +138,7 @@ json::Value Expander::expand_included(Node& node, const json::Value& value) {
 // Unlike other entries, a null is kept: whether there is an @value decides what @type means.
 void Expander::expand_value_entry(Node& node, const json::Member& entry) {
   const json::Value& value = entry.value;
-  const bool json_literal = node.json_literal && !json_ld_10();
+  const bool json_literal = is_json_literal(*node.active, *node.element) && !json_ld_10();
   if (!json_literal && !value.is_scalar() && !value.is_null()) {
     fail_at(code::kInvalidValueObjectValue, node, value,
             fmt::format("\"@value\" is {}", describe(value)),

@@ -179,12 +179,7 @@ json::Value Expander::expand_object(const Context* active, Property property,
   const Context* type_scoped = active;
   active = apply_types(active, object);
 
-  Node node{active,
-            type_scoped,
-            property,
-            &object,
-            is_json_literal(*active, object),
-            json::Value::object(arena_, object.position())};
+  Node node{active, type_scoped, property, &object, json::Value::object(arena_, object.position())};
   expand_entries(node);
   return finish(node);
 }

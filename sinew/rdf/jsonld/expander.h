@@ -36,7 +36,6 @@ class Expander {
     const Context* type_scoped;
     Property property;  // that the node is a value of
     const json::Value* element;
-    bool json_literal;  // the node's type is @json
     json::Value result;
   };
 

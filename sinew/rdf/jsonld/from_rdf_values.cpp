@@ -24,9 +24,9 @@ namespace {
 
 // The text of a whole number as a double: "1.0", so that it is not taken for an integer.
 std::string double_number(double value) {
+  if (value == 0) return std::signbit(value) ? "-0.0" : "0.0";
   std::string result = json::ecmascript_number(value);
   if (result.find_first_of(".e") == std::string::npos) result += ".0";
-  if (value == 0 && std::signbit(value)) result.insert(0, "-");
   return result;
 }
 

@@ -1,4 +1,6 @@
 // Literals: from a value object to an RDF literal (JSON-LD 1.1 API, section 8.2).
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -74,7 +76,7 @@ Id ToRdf::literal(const json::Value& object) {
   if (!language.empty() && !rdf::is_language_tag(language)) {
     if (context_.check != nullptr) {
       context_.check->dropped_quad(place_in(context_.source, value.position()), "",
-                                   "\"" + std::string(language) + "\" is no language tag",
+                                   fmt::format("\"{}\" is no language tag", language),
                                    "a tag such as \"en\" or \"de-AT\"");
     }
     return {};
