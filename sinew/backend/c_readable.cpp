@@ -69,8 +69,16 @@ RenderedSource readable_source(const program::Program& program, const program::I
       heading = std::move(next);
     }
     std::string call = "  " + program::support_function(closure.operation) + "(";
-    for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
-      call += (i > 0 ? ", " : "") + names[closure.arguments[i]];
+    const std::size_t count = closure.arguments.size();
+    // An operator of many arguments takes them as an array of pointers and their number.
+    const bool many = program::find_kernel(closure.operation)->many();
+    if (many) call += "(const double *const[]){";
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool last_of_many = many && i + 1 == count;
+      call += (i == 0         ? ""
+               : last_of_many ? fmt::format("}}, {}, ", count - 1)
+                              : ", ") +
+              names[closure.arguments[i]];
     }
     body.add(call + ");", index);
   }

@@ -25,9 +25,12 @@ Interpreter::Interpreter(const program::Program& program) {
 
   for (const std::uint32_t index : program.schedule) {
     const program::Closure& closure = program.closures[index];
-    steps_.push_back({program::find_kernel(closure.operation)->evaluate, arguments_.size()});
+    const program::Kernel& kernel = *program::find_kernel(closure.operation);
+    steps_.push_back(
+        {kernel.evaluate, kernel.evaluate_many, arguments_.size(), closure.arguments.size()});
     for (const std::uint32_t variable : closure.arguments) {
       arguments_.push_back(numbers_.data() + place[variable]);
+      sizes_.push_back(program.variables[variable].size);
     }
   }
 
@@ -49,7 +52,13 @@ Interpreter::Interpreter(const program::Program& program) {
 
 void Interpreter::evaluate(const double* in, double* out) {
   for (const Copy& c : inputs_) std::copy_n(in + c.offset, c.size, numbers_.data() + c.place);
-  for (const Step& step : steps_) step.evaluate(arguments_.data() + step.first_argument);
+  for (const Step& step : steps_) {
+    double* const* arguments = arguments_.data() + step.first_argument;
+    if (step.evaluate != nullptr)
+      step.evaluate(arguments);
+    else
+      step.evaluate_many(arguments, {sizes_.data() + step.first_argument, step.arguments});
+  }
   for (const Copy& c : outputs_) std::copy_n(numbers_.data() + c.place, c.size, out + c.offset);
 }
 

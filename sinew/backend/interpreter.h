@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sinew/program/interface.h"
@@ -30,7 +32,9 @@ class Interpreter {
  private:
   struct Step {
     void (*evaluate)(double* const* arguments);
-    std::size_t first_argument;  // into arguments_
+    void (*evaluate_many)(double* const* arguments, std::span<const std::uint32_t> sizes);
+    std::size_t first_argument;  // into arguments_ and sizes_
+    std::size_t arguments;
   };
   struct Copy {
     std::size_t offset;  // in the caller's array
@@ -41,6 +45,7 @@ class Interpreter {
   program::Interface interface_;
   std::vector<double> numbers_;  // every variable, one after the other
   std::vector<double*> arguments_;
+  std::vector<std::uint32_t> sizes_;
   std::vector<Step> steps_;
   std::vector<Copy> inputs_, outputs_;
   std::vector<double> first_states_;

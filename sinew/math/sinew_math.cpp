@@ -4,6 +4,7 @@
 
 #include "sinew/math/articulated_inertia.h"
 #include "sinew/math/inertia.h"
+#include "sinew/math/jacobian.h"
 #include "sinew/math/joint.h"
 #include "sinew/math/layout.h"
 
@@ -168,3 +169,20 @@ void sinew_joint_acceleration_from_force(const double* u, const double* U, const
 }
 
 void sinew_subtract_joint_force(const double* a, const double* b, double* c) { *c = *a - *b; }
+
+void sinew_jacobian_column_revolute(const double* X_RC, const double* X_RB, double* J) {
+  store(jacobian_column_revolute(load<Pose>(X_RC), load<Pose>(X_RB)), J);
+}
+
+void sinew_jacobian_column_prismatic(const double* X_RC, const double* X_RB, double* J) {
+  store(jacobian_column_prismatic(load<Pose>(X_RC), load<Pose>(X_RB)), J);
+}
+
+void sinew_mass_matrix_from_entries(const double* const entries[], int count, double* M) {
+  for (int i = 0; i < count; ++i) M[i] = *entries[i];
+}
+
+void sinew_jacobian_from_columns(const double* const columns[], int count, double* J) {
+  for (int column = 0; column < count; ++column)
+    for (int row = 0; row < 6; ++row) J[row * count + column] = columns[column][row];
+}

@@ -96,6 +96,14 @@ void sinew_joint_acceleration_from_force(const double u[1], const double U[6], c
                                          const double A[6], double qdd[1]);
 void sinew_subtract_joint_force(const double a[1], const double b[1], double c[1]);
 
+/* The twist of the origin of B for one unit of velocity of a joint about, or along, z of C. */
+void sinew_jacobian_column_revolute(const double X_RC[12], const double X_RB[12], double J[6]);
+void sinew_jacobian_column_prismatic(const double X_RC[12], const double X_RB[12], double J[6]);
+
+/* Matrices, row by row: from `count` numbers one after the other; from `count` columns of 6. */
+void sinew_mass_matrix_from_entries(const double *const entries[], int count, double *M);
+void sinew_jacobian_from_columns(const double *const columns[], int count, double *J);
+
 #ifdef __cplusplus
 }
 #endif

@@ -15,7 +15,8 @@ Program without_dead_closures(const Program& program) {
     const Closure& closure = program.closures[program.schedule[s]];
     const Kernel& kernel = *find_kernel(closure.operation);
     for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
-      if (kernel.ports[i].output && needed[closure.arguments[i]]) live[s] = true;
+      if (kernel.port(i, closure.arguments.size()).output && needed[closure.arguments[i]])
+        live[s] = true;
     }
     if (!live[s]) continue;
     for (const std::uint32_t argument : closure.arguments) needed[argument] = true;

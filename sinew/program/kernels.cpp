@@ -8,8 +8,10 @@
 
 #include "sinew/math/articulated_inertia.h"
 #include "sinew/math/inertia.h"
+#include "sinew/math/jacobian.h"
 #include "sinew/math/joint.h"
 #include "sinew/math/layout.h"
+#include "sinew/program/kernels_many.h"
 
 namespace sinew::program {
 namespace {
@@ -40,8 +42,12 @@ template <typename F>
 Kernel row(std::string_view operation, F) {
   using Numeric = Call<decltype(&F::template operator()<double>)>;
   using Tracing = Call<decltype(&F::template operator()<Traced>)>;
-  return {operation, Numeric::kPorts, &Numeric::template apply<double>,
-          &Tracing::template apply<Traced>};
+  return {operation,
+          Numeric::kPorts,
+          &Numeric::template apply<double>,
+          &Tracing::template apply<Traced>,
+          nullptr,
+          nullptr};
 }
 
 // Operators of the same name in the catalogue (algorithm/operators.cpp) have the same ports; a test
@@ -167,7 +173,17 @@ std::vector<Kernel> make_kernels() {
           []<typename S>(const S& u, const Wrench<S>& U, const S& D,
                          const AccelerationTwist<S>& A) { return joint_acceleration(u, U, D, A); }),
       row("subtract-joint-force", []<typename S>(const S& a, const S& b) { return S(a - b); }),
+
+      row("jacobian-column-revolute",
+          []<typename S>(const Pose<S>& X_RC, const Pose<S>& X_RB) {
+            return jacobian_column_revolute(X_RC, X_RB);
+          }),
+      row("jacobian-column-prismatic",
+          []<typename S>(const Pose<S>& X_RC, const Pose<S>& X_RB) {
+            return jacobian_column_prismatic(X_RC, X_RB);
+          }),
   };
+  for (const Kernel& kernel : kernels_of_many()) rows.push_back(kernel);
   std::sort(rows.begin(), rows.end(),
             [](const Kernel& a, const Kernel& b) { return a.operation < b.operation; });
   return rows;

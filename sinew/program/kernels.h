@@ -17,12 +17,22 @@ struct Port {
 };
 
 struct Kernel {
-  std::string_view operation;   // name in the operator catalogue: "compose-pose"
-  std::span<const Port> ports;  // in the catalogue's order, outputs last
+  std::string_view operation = {};   // name in the operator catalogue: "compose-pose"
+  std::span<const Port> ports = {};  // in the catalogue's order, outputs last
   // The operator on numbers; arguments[i] points to ports[i].size numbers.
-  void (*evaluate)(double* const* arguments);
+  void (*evaluate)(double* const* arguments) = nullptr;
   // The same operator, recorded.
-  void (*trace)(Traced* const* arguments);
+  void (*trace)(Traced* const* arguments) = nullptr;
+  // Instead of these, for an operator whose first port takes any number of arguments: `sizes` has
+  // one entry for each argument, the output's last.
+  void (*evaluate_many)(double* const* arguments, std::span<const std::uint32_t> sizes) = nullptr;
+  void (*trace_many)(Traced* const* arguments, std::span<const std::uint32_t> sizes) = nullptr;
+
+  bool many() const { return evaluate_many != nullptr; }
+  // The port of an argument, of a closure with `count` arguments.
+  const Port& port(std::size_t argument, std::size_t count) const {
+    return many() ? ports[argument + 1 == count ? 1 : 0] : ports[argument];
+  }
 };
 
 // Every row, sorted by operation.

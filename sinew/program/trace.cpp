@@ -30,6 +30,7 @@ Computation trace(const Program& program) {
   for (const Slot& slot : interface.states) read(slot, interface.in_size);
 
   std::vector<Traced*> arguments;
+  std::vector<std::uint32_t> sizes;
   for (const std::uint32_t index : program.schedule) {
     const Closure& closure = program.closures[index];
     arguments.clear();
@@ -37,7 +38,16 @@ Computation trace(const Program& program) {
       arguments.push_back(values[variable].data());
     }
     dag.set_origin(index);
-    find_kernel(closure.operation)->trace(arguments.data());
+    const Kernel& kernel = *find_kernel(closure.operation);
+    if (!kernel.many()) {
+      kernel.trace(arguments.data());
+      continue;
+    }
+    sizes.clear();
+    for (const std::uint32_t variable : closure.arguments) {
+      sizes.push_back(program.variables[variable].size);
+    }
+    kernel.trace_many(arguments.data(), sizes);
   }
   dag.set_origin(kNoOrigin);
 

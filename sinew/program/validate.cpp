@@ -79,7 +79,8 @@ class Validator {
             "use an operator of the catalogue");
       return false;
     }
-    if (closure.arguments.size() != kernel->ports.size()) {
+    const std::size_t count = closure.arguments.size();
+    if (kernel->many() ? count < 2 : count != kernel->ports.size()) {
       fault(closure.iri,
             fmt::format("operator '{}' is bound to {} variables", closure.operation,
                         closure.arguments.size()),
@@ -87,7 +88,8 @@ class Validator {
       return false;
     }
     bool sound = true;
-    for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
+    std::uint32_t together = 0;  // what an operator of many arguments gives
+    for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t index = closure.arguments[i];
       if (index >= program_.variables.size()) {
         fault(closure.iri,
@@ -97,11 +99,14 @@ class Validator {
         continue;
       }
       const Variable& v = program_.variables[index];
-      if (v.size != kernel->ports[i].size) {
+      const Port& port = kernel->port(i, count);
+      const std::uint32_t size = port.size != 0 ? port.size : together;
+      together += v.size;
+      if (v.size != size) {
         fault(closure.iri,
               fmt::format("argument {} of '{}' is '{}' <{}>, which holds {} numbers", i + 1,
                           closure.operation, v.name, v.iri, v.size),
-              fmt::format("the port takes {}", kernel->ports[i].size));
+              fmt::format("the port takes {}", size));
         sound = false;
       }
     }
@@ -128,11 +133,12 @@ class Validator {
 
   void follow(std::uint32_t index, const Closure& closure) {
     const Kernel& kernel = *find_kernel(closure.operation);
-    for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
-      if (!kernel.ports[i].output) check_read(closure, closure.arguments[i]);
+    const std::size_t count = closure.arguments.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!kernel.port(i, count).output) check_read(closure, closure.arguments[i]);
     }
-    for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
-      if (kernel.ports[i].output) check_write(index, closure, closure.arguments[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (kernel.port(i, count).output) check_write(index, closure, closure.arguments[i]);
     }
   }
 
@@ -155,7 +161,7 @@ class Validator {
       return;
     }
     for (std::size_t i = 0; i + 1 < closure.arguments.size(); ++i) {
-      const bool input = !find_kernel(closure.operation)->ports[i].output;
+      const bool input = !find_kernel(closure.operation)->port(i, closure.arguments.size()).output;
       if (input && closure.arguments[i] == variable) {
         fault(closure.iri,
               fmt::format("'{}' both reads and writes '{}' <{}>", closure.operation, v.name, v.iri),
