@@ -49,6 +49,8 @@ class Translator {
     return node.is_variable() ? Node::variable(variable(scope, node.value)) : Node::term(node.id());
   }
   Expression expression(Scope& scope, const syntax::Expression& source);
+  void add_conditions(Scope& scope, const syntax::Expression& source,
+                      std::vector<Expression>& into);
   Pattern triples(Scope& scope, const Element& element);
   Pattern values(Scope& scope, const syntax::Values& values);
   Pattern united(Scope& scope, const Element& element);
@@ -124,6 +126,17 @@ Expression Translator::expression(Scope& scope, const syntax::Expression& source
     result.arguments.push_back(expression(scope, argument));
   }
   return result;
+}
+
+// FILTER(a && b) keeps what FILTER(a) FILTER(b) keeps, and each of the two can run as soon as its
+// own variables are bound.
+void Translator::add_conditions(Scope& scope, const syntax::Expression& source,
+                                std::vector<Expression>& into) {
+  if (source.op != Operator::kAnd) {
+    into.push_back(expression(scope, source));
+    return;
+  }
+  for (const syntax::Expression& part : source.arguments) add_conditions(scope, part, into);
 }
 
 Pattern Translator::triples(Scope& scope, const Element& element) {
@@ -255,7 +268,7 @@ Pattern Translator::group(Scope& scope, const syntax::Group& group) {
   filter.kind = Pattern::Kind::kFilter;
   for (const Element& element : group.elements) {
     if (element.kind != Element::Kind::kFilter) continue;
-    filter.conditions.push_back(expression(scope, element.expression));
+    add_conditions(scope, element.expression, filter.conditions);
   }
   if (filter.conditions.empty()) return result;
   filter.parts.push_back(std::move(result));
@@ -283,7 +296,7 @@ Select Translator::select(Scope& scope, const syntax::Select& source) {
   }
   aggregates_ = &result.aggregates;
   for (const syntax::Expression& condition : source.having) {
-    result.having.push_back(expression(scope, condition));
+    add_conditions(scope, condition, result.having);
   }
   for (const syntax::Projection& projection : source.projections) {
     const Variable column = variable(scope, projection.variable);

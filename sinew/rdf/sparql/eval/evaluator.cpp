@@ -224,10 +224,9 @@ bool Evaluator::differ(const Op& op) {
   const Id a = slots_[op.subject];
   const Id b = slots_[op.object];
   if (!a || !b) return false;
-  if (space_.kind(a) != graph::TermKind::kLiteral || space_.kind(b) != graph::TermKind::kLiteral) {
-    return values::same_node(a, b, space_) == op.negated;
-  }
-  return condition(op.item) == Truth::kTrue;
+  const Truth same = values::same_without_values(a, b, space_);
+  if (same == Truth::kError) return condition(op.item) == Truth::kTrue;
+  return (same == Truth::kTrue) == op.negated;
 }
 
 bool Evaluator::extend(const Op& op) {

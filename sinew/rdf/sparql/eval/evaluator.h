@@ -117,6 +117,7 @@ class Evaluator {
   Value argument(const plan::Expression& call, std::uint32_t number) {
     return value(plan_->arguments[call.first + number]);
   }
+  Id leaf(const plan::Expression& call, std::uint32_t number) const;
   Truth compare(const plan::Expression& expression);
   Truth all_of(const plan::Expression& expression);
   Truth any_of(const plan::Expression& expression);

@@ -106,6 +106,13 @@ Truth Evaluator::compare(const plan::Expression& expression) {
   const auto opposite = [](Truth truth) {
     return truth == Truth::kError ? truth : values::truth(truth == Truth::kFalse);
   };
+  if (expression.op == Operator::kEqual || expression.op == Operator::kNotEqual) {
+    const Id left = leaf(expression, 0);
+    const Id right = leaf(expression, 1);
+    const Truth same =
+        left && right ? values::same_without_values(left, right, space_) : Truth::kError;
+    if (same != Truth::kError) return expression.op == Operator::kEqual ? same : opposite(same);
+  }
   const Value a = argument(expression, 0);
   if (!a) return Truth::kError;
   const Value b = argument(expression, 1);
@@ -126,6 +133,13 @@ Truth Evaluator::compare(const plan::Expression& expression) {
     default:
       return or_equal(values::less(b, a));
   }
+}
+
+// The argument's term if it is a variable or a constant; else the null id.
+Id Evaluator::leaf(const plan::Expression& call, std::uint32_t number) const {
+  const plan::Expression& argument = plan_->expressions[plan_->arguments[call.first + number]];
+  const bool is_leaf = argument.op == Operator::kVariable || argument.op == Operator::kConstant;
+  return is_leaf ? slots_[argument.slot] : Id{};
 }
 
 Value Evaluator::value(Index index) {

@@ -59,6 +59,16 @@ bool same_node(graph::Id a, graph::Id b, const TermSpace& space) {
   return mixed && space.text(a) == space.text(b);
 }
 
+Truth same_without_values(graph::Id a, graph::Id b, const TermSpace& space) {
+  using graph::TermKind;
+  const TermKind kind_a = space.kind(a);
+  const TermKind kind_b = space.kind(b);
+  if (kind_a == TermKind::kLiteral && kind_b == TermKind::kLiteral) return Truth::kError;
+  if (a == b) return Truth::kTrue;
+  if (kind_a == kind_b) return Truth::kFalse;
+  return truth(same_node(a, b, space));
+}
+
 Truth equals(const Value& a, const Value& b, const TermSpace& space) {
   if (!a || !b) return Truth::kError;
   if (!a.is_literal() || !b.is_literal()) {

@@ -9,6 +9,8 @@ namespace sinew::rdf::sparql::values {
 // Of two terms that are not both literals: whether they are the same IRI or blank node. A derived
 // node is the same as the IRI that has its text.
 bool same_node(graph::Id a, graph::Id b, const TermSpace& space);
+// The same of any two terms, without a look at their values: kError where that would be needed.
+Truth same_without_values(graph::Id a, graph::Id b, const TermSpace& space);
 
 // `=`: values where both datatypes are known, else terms. Literals that might be equal in a
 // datatype that is not known are an error.

@@ -19,6 +19,7 @@ void TermSpace::begin(const graph::Terms& terms, std::size_t computed_bytes) {
                         Severity::kError,
                         {}});
   }
+  if (terms_ != &terms) types_ = {};
   terms_ = &terms;
   most_bytes_ = computed_bytes;
   if (entries_.empty()) return;
@@ -31,6 +32,17 @@ void TermSpace::begin(const graph::Terms& terms, std::size_t computed_bytes) {
 std::string_view TermSpace::datatype(Id id) const {
   if (is_local(id)) return entry(id).datatype;
   return terms_->text(terms_->datatype(id));
+}
+
+TypeName TermSpace::type(Id id) const {
+  if (is_local(id)) return {entry(id).datatype, datatype_of(entry(id).datatype)};
+  const Id datatype = terms_->datatype(id);
+  KnownType& known = types_[datatype.value % types_.size()];
+  if (known.id != datatype) {
+    const std::string_view iri = terms_->text(datatype);
+    known = {datatype, {iri, datatype_of(iri)}};
+  }
+  return known.name;
 }
 
 Id TermSpace::add(Entry entry, std::string key) {

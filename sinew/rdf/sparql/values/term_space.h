@@ -6,6 +6,7 @@
 // term into the store's dictionary, for results.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -13,11 +14,18 @@
 #include <vector>
 
 #include "sinew/graph/terms.h"
+#include "sinew/rdf/sparql/values/xsd.h"
 
 namespace sinew::rdf::sparql::values {
 
 inline constexpr std::uint32_t kLocalBit = 0x80000000u;
 inline bool is_local(graph::Id id) { return (id.value & kLocalBit) != 0; }
+
+// A literal's datatype, as its IRI and as what we know of it.
+struct TypeName {
+  std::string_view iri;
+  Datatype datatype = Datatype::kOther;
+};
 
 class TermSpace {
  public:
@@ -41,6 +49,7 @@ class TermSpace {
   }
   // The datatype's IRI.
   std::string_view datatype(graph::Id id) const;
+  TypeName type(graph::Id id) const;
   std::string_view language(graph::Id id) const {
     return is_local(id) ? std::string_view(entry(id).language) : terms_->language(id);
   }
@@ -59,6 +68,12 @@ class TermSpace {
   graph::Id add(Entry entry, std::string key);
 
   const graph::Terms* terms_ = nullptr;
+  // Datatypes of the store that were met before, by the last bits of their ids.
+  struct KnownType {
+    graph::Id id;
+    TypeName name;
+  };
+  mutable std::array<KnownType, 16> types_ = {};
   std::vector<Entry> entries_;
   std::unordered_map<std::string, graph::Id> known_;
   std::unordered_map<std::string, graph::Id> labels_;

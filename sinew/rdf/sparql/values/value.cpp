@@ -79,10 +79,11 @@ void read_instant(Value& value, ValueKind kind, Datatype type) {
   value.zone_minutes = instant->zone_minutes;
 }
 
-void read_literal(Value& value, std::string_view datatype) {
+void read_literal(Value& value, const TypeName& type) {
+  const std::string_view datatype = type.iri;
   value.kind = ValueKind::kOther;
   value.datatype = datatype;
-  switch (datatype_of(datatype)) {
+  switch (type.datatype) {
     case Datatype::kString:
       value.kind = ValueKind::kString;
       break;
@@ -133,7 +134,7 @@ void read_literal(Value& value, std::string_view datatype) {
     case Datatype::kDuration:
     case Datatype::kDayTimeDuration:
     case Datatype::kYearMonthDuration:
-      value.type = datatype_of(datatype);
+      value.type = type.datatype;
       if (const auto duration = parse_duration(value.text, value.type)) {
         value.kind = ValueKind::kDuration;
         value.months = duration->months;
@@ -163,7 +164,7 @@ Value value_of(Id id, const TermSpace& space) {
     case TermKind::kLiteral:
       value.text = space.text(id);
       value.language = space.language(id);
-      read_literal(value, space.datatype(id));
+      read_literal(value, space.type(id));
       return value;
   }
   return value;
