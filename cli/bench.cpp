@@ -13,7 +13,7 @@
 #include "sinew/backend/c_target.h"
 #include "sinew/backend/jit.h"
 #include "sinew/program/interface.h"
-#include "sinew/program/trace.h"
+#include "sinew/program/scalar_program.h"
 
 namespace sinew::cli {
 namespace {
@@ -108,7 +108,7 @@ int run_bench(Arguments arguments) {
   std::string why;
   if (backend::jit_available(&why)) {
     const Clock::time_point jit_start = Clock::now();
-    const program::Computation computation = program::trace(program);
+    const program::Computation computation = program::scalar_program(program).computation;
     const backend::JitFunction function = backend::jit_compile(
         computation, {level == "fast" ? backend::JitLevel::kFast : backend::JitLevel::kFull, ""});
     report["model_to_code_ms"] = to_program_ms + since_ms(jit_start);

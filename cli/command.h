@@ -22,11 +22,12 @@ int run_import(Arguments arguments);
 int run_query(Arguments arguments);
 int run_update(Arguments arguments);
 int run_synth(Arguments arguments);
-int run_weave(Arguments arguments);
 int run_stats(Arguments arguments);
 int run_generate(Arguments arguments);
 int run_run(Arguments arguments);
 int run_bench(Arguments arguments);
 int run_explain(Arguments arguments);
+int run_convert(Arguments arguments);
+int run_blocks(Arguments arguments);
 
 }  // namespace sinew::cli

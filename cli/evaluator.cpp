@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sinew/program/trace.h"
+#include "sinew/program/scalar_program.h"
 
 namespace sinew::cli {
 
@@ -12,7 +12,7 @@ Evaluator::Evaluator(const program::Program& program, How how, backend::JitLevel
     interpreter_.emplace(program);
     return;
   }
-  function_ = backend::jit_compile(program::trace(program), {level, ""});
+  function_ = backend::jit_compile(program::scalar_program(program).computation, {level, ""});
   in_and_state_.resize(interface_.in_size + interface_.state_size);
   out_and_state_.resize(interface_.out_size + interface_.state_size);
   for (const program::Slot& slot : interface_.states) {

@@ -20,12 +20,17 @@ struct Command {
 
 constexpr Command kCommands[] = {
     {"check", "MODEL…", "conformance, units, frames, physical plausibility", run_check},
+    {"import", "ROBOT.urdf -o FILE.jsonld", "write composable models", run_import},
     {"query", "MODEL… (-e TEXT | -q FILE)", "answer a SPARQL query", run_query},
     {"update", "MODEL… (-e TEXT | -q FILE)", "apply a SPARQL update", run_update},
+    {"synth", "MODEL… --solver NAME -o ALGO.jsonld", "synthesise an algorithm model", run_synth},
+    {"stats", "ALGO.jsonld", "data, operators, operations, memory", run_stats},
     {"generate", "MODEL… --solver NAME -o DIR", "write source code", run_generate},
     {"run", "MODEL… --solver NAME --input ROWS.csv", "evaluate: rows in, rows out", run_run},
     {"bench", "MODEL… --solver NAME", "time per evaluation, operations, code size", run_bench},
     {"explain", "NAME.json LINE", "from a generated line to its model element", run_explain},
+    {"convert", "FILE SOURCE TARGET", "data conversions: explained, emitted, done", run_convert},
+    {"blocks", "check|fmt|graph|text FILE", "the block language", run_blocks},
 };
 
 void print_help(std::ostream& out) {

@@ -1,12 +1,15 @@
 #include "pipeline.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <string_view>
 
 #include "output.h"
 #include "sinew/algorithm/read.h"
 #include "sinew/model/load.h"
 #include "sinew/model/normalise.h"
+#include "sinew/model/regroup.h"
 #include "sinew/program/lower.h"
 #include "sinew/rdf/catalogue/catalogue.h"
 #include "sinew/synthesis/read_query.h"
@@ -56,6 +59,18 @@ synthesis::Query query_of(const ModelOptions& files, const QueryOptions& options
   return query;
 }
 
+// Whether every answer stays the same when inertia is moved from a body to its predecessor: motions
+// do not know inertia, and of forces those of joints.
+bool allows_regrouping(const synthesis::Query& query) {
+  constexpr std::string_view kUnchanged[] = {"pose",          "twist",       "acceleration-twist",
+                                             "jacobian",      "joint-force", "bias-force",
+                                             "gravity-force", "mass-matrix", "joint-acceleration"};
+  return std::all_of(query.asked.begin(), query.asked.end(), [&](const synthesis::Asked& asked) {
+    return std::find(std::begin(kUnchanged), std::end(kUnchanged), asked.quantity) !=
+           std::end(kUnchanged);
+  });
+}
+
 void normalise(Models& models, const synthesis::Query& query) {
   model::NormaliseOptions options;
   options.base = query.base;
@@ -63,10 +78,11 @@ void normalise(Models& models, const synthesis::Query& query) {
   if (query.gravity)
     options.gravity = model::Vector3{(*query.gravity)[0], (*query.gravity)[1], (*query.gravity)[2]};
   Report report;
-  const model::Tree tree = model::normalise(models.store, models.places, options, report);
+  model::Tree tree = model::normalise(models.store, models.places, options, report);
   print_notes(report);
   report.throw_if_errors();
   for (const std::string& note : tree.notes) print_note(note);
+  if (allows_regrouping(query)) model::regroup_inertial_parameters(tree);
   model::write(tree, models.store);
 }
 
@@ -88,7 +104,11 @@ program::Program program_of(Models& models, const ModelOptions& files, const Que
   const graph::Id algorithm = algorithm_of(models, files, options);
   std::string program_name = name;
   if (program_name.empty()) program_name = options.solver.empty() ? "program" : options.solver;
-  return program::lower(models.store.view(), algorithm, program_name, &models.places);
+  return lowered(models, algorithm, program_name);
+}
+
+program::Program lowered(const Models& models, graph::Id algorithm, const std::string& name) {
+  return program::lower(models.store.view(), algorithm, name, &models.places);
 }
 
 std::unique_ptr<Models> load(const ModelOptions& options) {

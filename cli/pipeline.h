@@ -33,6 +33,8 @@ graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOpt
 program::Program program_of(Models& models, const ModelOptions& files, const QueryOptions& query,
                             const std::string& name);
 
+program::Program lowered(const Models& models, graph::Id algorithm, const std::string& name);
+
 // "robots/arm.urdf, solver rnea": for banners and reports.
 std::string describe(const ModelOptions& files, const QueryOptions& query);
 

@@ -1,0 +1,37 @@
+// sinew synth MODEL… --solver NAME -o ALGO.jsonld: the algorithm model.
+#include <iostream>
+
+#include "options.h"
+#include "output.h"
+#include "pipeline.h"
+#include "write_models.h"
+
+namespace sinew::cli {
+
+int run_synth(Arguments arguments) {
+  CLI::App app(
+      "Synthesise the algorithm that answers a query: data, closures and schedule, each linked to "
+      "the "
+      "model element and the step that it comes from.",
+      "sinew synth");
+  ModelOptions models_options;
+  QueryOptions query;
+  std::string output;
+  bool explain = false;
+  add_model_options(app, models_options);
+  add_query_options(app, query);
+  app.add_flag("--why", explain, "Say on standard error why each step is there");
+  app.add_option("-o,--output", output, "File for the algorithm (default: standard output)");
+  if (const auto code = parse(app, std::move(arguments))) return *code;
+
+  const auto models = load(models_options);
+  std::vector<std::string> why;
+  const graph::Id algorithm = algorithm_of(*models, models_options, query, &why);
+  if (explain) {
+    for (const std::string& line : why) std::cerr << line << "\n";
+  }
+  write_output(output, algorithm_as_jsonld(models->store.view(), algorithm));
+  return kOk;
+}
+
+}  // namespace sinew::cli

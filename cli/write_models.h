@@ -1,0 +1,17 @@
+// Models and algorithms as JSON-LD, with the project's contexts.
+#pragma once
+
+#include <string>
+
+#include "sinew/graph/store.h"
+
+namespace sinew::cli {
+
+// Every graph of the view, with the contexts of robot models. `base` (may be empty) gets the prefix
+// "rob".
+std::string models_as_jsonld(const graph::View& view, const std::string& base);
+
+// One algorithm's graph.
+std::string algorithm_as_jsonld(const graph::View& view, graph::Id algorithm);
+
+}  // namespace sinew::cli
