@@ -7,9 +7,9 @@
 
 namespace sinew::cli {
 
-// Every graph of the view, with the contexts of robot models. `base` (may be empty) gets the prefix
-// "rob".
-std::string models_as_jsonld(const graph::View& view, const std::string& base);
+// Every graph of the view, with the contexts of robot models. What the names of all graphs begin
+// with gets the prefix "rob".
+std::string models_as_jsonld(const graph::View& view);
 
 // One algorithm's graph.
 std::string algorithm_as_jsonld(const graph::View& view, graph::Id algorithm);
