@@ -45,7 +45,7 @@ class Emitter {
     text += emit_includes();
     text += emit_functions();
     text += emit_signature() + " {\n" + body + "}\n";
-    text += cpp() ? "" : fmt::format("\n#endif\n");
+    text += "\n#endif\n";
     return text;
   }
 
@@ -337,7 +337,7 @@ class Emitter {
     }
     text += fmt::format("// {} operations in all.\n", program_.operations());
     const std::string guard = "SINEW_" + name() + "_H";
-    text += cpp() ? "#pragma once\n\n" : fmt::format("#ifndef {}\n#define {}\n\n", guard, guard);
+    text += fmt::format("#ifndef {0}\n#define {0}\n\n", guard);
     return text;
   }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <queue>
+#include <set>
 
 #include "sinew/data/spelling.h"
 
@@ -201,6 +202,22 @@ void collect_losses(const Plan& plan, std::vector<std::string>& losses) {
   }
 }
 
+// "expressed_in=base, reference_point=tool", of a composed space that of its members together.
+std::string convention_of(const Library& library, Index index) {
+  const Space& space = library.spaces[index];
+  if (!space.composed()) return space.convention;
+  std::set<std::string> entries;
+  for (const auto& [member, part] : space.members) {
+    std::string_view rest = library.spaces[part].convention;
+    while (!rest.empty()) {
+      const std::string_view entry = rest.substr(0, rest.find(", "));
+      rest.remove_prefix(std::min(rest.size(), entry.size() + 2));
+      entries.emplace(entry);
+    }
+  }
+  return fmt::format("{}", fmt::join(entries, ", "));
+}
+
 [[noreturn]] void fail(const Library& library, Index source, Index target) {
   const Prototype &a = library.prototypes[source], &b = library.prototypes[target];
   const std::string both = fmt::format("'{}' cannot be converted to '{}'", a.name, b.name);
@@ -215,10 +232,10 @@ void collect_losses(const Plan& plan, std::vector<std::string>& losses) {
     refuse(fmt::format("'{}' means {}, '{}' means {}", a.name, a.semantic, b.name, b.semantic),
            "only what means the same can be converted");
   }
-  const std::string& from = library.spaces[a.bindings.front().space].convention;
-  const std::string& to = library.spaces[b.bindings.front().space].convention;
+  const std::string from = convention_of(library, a.bindings.front().space);
+  const std::string to = convention_of(library, b.bindings.front().space);
   if (from != to) {
-    refuse(fmt::format("'{}' is {}, '{}' is {}", a.name, from, b.name, to),
+    refuse(fmt::format("the value of '{}' is {}, that of '{}' {}", a.name, from, b.name, to),
            "declare a conversion that knows how the conventions are related");
   }
   PlanOptions lossy;
