@@ -11,6 +11,7 @@
 #include "sinew/program/dag/dag.h"
 #include "sinew/program/interface.h"
 #include "sinew/program/program.h"
+#include "sinew/program/snap_constants.h"
 
 namespace sinew::backend {
 
@@ -56,6 +57,7 @@ RenderedSource readable_source(const program::Program& program, const program::I
 // closure, step and model element (docs/generated-code.md).
 std::string sidecar(const program::Program& program, const program::Interface& interface,
                     const COptions& options, const program::OperationCount& operations,
+                    const std::vector<program::SnappedConstant>& snapped,
                     const std::vector<LineOrigin>& origins);
 
 }  // namespace sinew::backend

@@ -8,10 +8,7 @@
 #include "sinew/backend/c_parts.h"
 #include "sinew/backend/numbers.h"
 #include "sinew/base/error.h"
-#include "sinew/program/dead_closures.h"
-#include "sinew/program/passes/passes.h"
-#include "sinew/program/trace.h"
-#include "sinew/program/validate.h"
+#include "sinew/program/scalar_program.h"
 
 namespace sinew::backend {
 namespace {
@@ -152,10 +149,10 @@ GeneratedCode generate_c(const program::Program& program, const COptions& option
                         Severity::kError,
                         {}});
   }
-  program::require_valid(program);
-  const program::Program live = program::without_dead_closures(program);
+  const program::ScalarProgram scalar = program::scalar_program(program, options.passes);
+  const program::Program& live = scalar.program;
+  const program::Computation& computation = scalar.computation;
   const program::Interface interface = program::interface_of(live);
-  const program::Computation computation = program::optimise(program::trace(live));
 
   GeneratedCode code;
   code.operations = program::count_operations(computation);
@@ -165,8 +162,8 @@ GeneratedCode generate_c(const program::Program& program, const COptions& option
                                     : readable_source(live, interface, common);
   code.files.push_back({options.name + ".h", render("c/header.h.mustache", common)});
   code.files.push_back({options.name + ".c", source.text});
-  code.files.push_back(
-      {options.name + ".json", sidecar(live, interface, options, code.operations, source.origins)});
+  code.files.push_back({options.name + ".json", sidecar(live, interface, options, code.operations,
+                                                        scalar.snapped, source.origins)});
   return code;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sinew/program/dag/evaluate.h"
+#include "sinew/program/passes/passes.h"
 #include "sinew/program/program.h"
 
 namespace sinew::backend {
@@ -20,6 +21,7 @@ struct COptions {
   std::string name;  // of the function and of the files
   Style style = Style::kFlat;
   std::string source;  // what it was made from, for the banner: "gen3.urdf, solver rnea"
+  program::OptimiseOptions passes;
 };
 
 struct SourceFile {

@@ -24,6 +24,7 @@ Json slots(const program::Program& program, const std::vector<program::Slot>& sl
 
 std::string sidecar(const program::Program& program, const program::Interface& interface,
                     const COptions& options, const program::OperationCount& operations,
+                    const std::vector<program::SnappedConstant>& snapped,
                     const std::vector<LineOrigin>& origins) {
   Json constants = Json::array();
   for (const program::Variable& v : program.variables) {
@@ -33,6 +34,13 @@ std::string sidecar(const program::Program& program, const program::Interface& i
                          {"unit", v.unit},
                          {"frame", v.frame},
                          {"value", v.value}});
+  }
+  Json snaps = Json::array();
+  for (const program::SnappedConstant& s : snapped) {
+    snaps.push_back({{"name", program.variables[s.variable].name},
+                     {"number", s.number},
+                     {"from", s.from},
+                     {"to", s.to}});
   }
   Json closures = Json::array();
   for (const program::Closure& c : program.closures) {
@@ -55,6 +63,7 @@ std::string sidecar(const program::Program& program, const program::Interface& i
                          {"outputs", slots(program, interface.outputs)},
                          {"states", slots(program, interface.states)},
                          {"constants", std::move(constants)},
+                         {"snapped", std::move(snaps)},
                          {"operations",
                           {{"add", operations.add},
                            {"multiply", operations.multiply},

@@ -1,7 +1,7 @@
 #include "sinew/backend/tiered.h"
 
 #include "sinew/base/error.h"
-#include "sinew/program/trace.h"
+#include "sinew/program/scalar_program.h"
 
 namespace sinew::backend {
 
@@ -16,7 +16,7 @@ Tiered::Tiered(program::Program program, JitOptions options) : interpreter_(prog
   }
   compiler_ = std::thread([this, program = std::move(program), options = std::move(options)] {
     try {
-      compiled_ = jit_compile(program::trace(program), options);
+      compiled_ = jit_compile(program::scalar_program(program).computation, options);
       code_.store(&*compiled_, std::memory_order_release);
     } catch (const std::exception& error) {
       fault_ = error.what();
