@@ -204,7 +204,8 @@ class Emitter {
       std::string list;
       for (const std::uint32_t angle : group.angles)
         list += (list.empty() ? "" : ", ") + value(angle);
-      line(fmt::format("{}_ALIGNED const double angle{}[{}] = {{ {} }};", upper_, tag, padded, list));
+      line(fmt::format("{}_ALIGNED const double angle{}[{}] = {{ {} }};", upper_, tag, padded,
+                       list));
       from = "angle" + tag;
       squares = each([&](std::size_t k) { return fmt::format("{0}[{1}] * {0}[{1}]", from, k); });
     }
