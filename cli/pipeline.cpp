@@ -56,6 +56,10 @@ synthesis::Query query_of(const ModelOptions& files, const QueryOptions& options
   if (!options.tips.empty()) query.tips = options.tips;
   if (!options.gravity.empty()) query.gravity = parse_vector3(options.gravity, "--gravity");
   if (options.floating) query.floating = true;
+  if (query.floating) {
+    fail("solvers have no floating base yet",
+         "leave out --floating, and choose a --base that stands still");
+  }
   return query;
 }
 

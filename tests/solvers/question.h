@@ -1,7 +1,6 @@
 // Asks the whole of Sinew a question about a robot and evaluates the answer in many states.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,42 +12,37 @@
 
 namespace sinew::test {
 
-// A URDF on disk, and its moving joints in the project's order once it has been asked something.
 struct Robot {
   std::string name;  // for messages
   std::string file;
-  std::string urdf;
-  bool floating = false;
+  std::string urdf;  // the file's text
 };
+
+// Every URDF of the test material; empty where it is not there.
+std::vector<Robot> published_robots();
 
 class Question {
  public:
-  // `solver`: rnea, aba, crba, fpk, …; gravity 0,0,-9.81.
-  Question(const Robot& robot, const std::string& solver, std::vector<std::string> tips = {});
+  // `solver`: rnea, aba, crba, fpk, …; gravity is 0,0,-9.81 seen from the base.
+  Question(const Robot& robot, const std::string& solver);
 
   // The moving joints, in the order of the program's inputs.
   const std::vector<std::string>& joints() const { return joints_; }
   const program::Program& program() const { return program_; }
 
-  // Evaluates with inputs found by their quantity: position.*, velocity.*, acceleration.*, force.*. `force` may be
-  // empty where the program takes none. Results by name (size 1) or NAME[i].
-  std::map<std::string, double> answer(const peers::State& state, const peers::Vector& force = {});
-
-  // The results QUANTITY.JOINT in joint order; of a floating base its 6 numbers first.
-  peers::Vector joint_results(const std::map<std::string, double>& results,
-                              const std::string& quantity) const;
+  // All results, one after the other. Inputs are found by their names: position.*, velocity.*,
+  // acceleration.* of the state, force.* of `force`, which may be empty where the program takes
+  // none.
+  peers::Vector answer(const peers::State& state, const peers::Vector& force = {});
 
  private:
   program::Program program_;
   std::unique_ptr<cli::Evaluator> evaluator_;
-  std::vector<std::string> inputs_, outputs_;
+  std::vector<std::string> inputs_;
   std::vector<std::string> joints_;
-  std::string base_;  // the element that names a floating base's numbers
 };
 
-// Every URDF of the test material; empty where it is not there.
-std::vector<Robot> published_robots();
-// A state whose numbers are drawn from +-1 (positions +-pi where `wide`).
-peers::State random_state(std::size_t joints, bool floating, unsigned seed);
+// Positions are drawn from +-pi, velocities and accelerations from +-1.
+peers::State random_state(std::size_t joints, unsigned seed);
 
 }  // namespace sinew::test

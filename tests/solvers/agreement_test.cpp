@@ -1,0 +1,124 @@
+// Sinew's answers beside those of libraries that no one here wrote, for published robots and for
+// trees that nobody drew.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "question.h"
+#include "random_urdf.h"
+
+namespace sinew::test {
+namespace {
+
+constexpr unsigned kStates = 1000;
+
+double largest(const peers::Vector& numbers) {
+  double result = 0;
+  for (const double number : numbers) result = std::max(result, std::fabs(number));
+  return result;
+}
+
+// The largest difference, relative to the largest number (but at least to 1).
+double difference(const peers::Vector& a, const peers::Vector& b) {
+  if (a.size() != b.size()) return 1e300;
+  double result = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) result = std::max(result, std::fabs(a[i] - b[i]));
+  return result / std::max(1.0, largest(b));
+}
+
+std::vector<std::unique_ptr<peers::Peer>> all_peers(const Robot& robot,
+                                                    const std::vector<std::string>& joints) {
+  const peers::Setup setup{robot.urdf, joints, false, {0, 0, -9.81}};
+  std::vector<std::unique_ptr<peers::Peer>> result;
+  result.push_back(peers::make_kdl(setup));
+  result.push_back(peers::make_mujoco(setup));
+  result.push_back(peers::make_dart(setup));
+  return result;
+}
+
+// The link whose frame a result pose.LINK is.
+std::vector<std::string> pose_links(const program::Program& program) {
+  std::vector<std::string> links;
+  for (const program::Variable& variable : program.variables) {
+    if (variable.output) links.push_back(variable.name.substr(variable.name.find('.') + 1));
+  }
+  return links;
+}
+
+struct Errors {
+  double pose = 0, force = 0, mass_matrix = 0, acceleration = 0, round_trip = 0;
+};
+
+Errors compare(const Robot& robot, unsigned states) {
+  Question fpk(robot, "fpk"), rnea(robot, "rnea"), crba(robot, "crba"), aba(robot, "aba");
+  const auto others = all_peers(robot, rnea.joints());
+  const auto links = pose_links(fpk.program());
+  Errors errors;
+  for (unsigned seed = 0; seed < states; ++seed) {
+    const peers::State state = random_state(rnea.joints().size(), seed);
+    const peers::Vector poses = fpk.answer(state), force = rnea.answer(state),
+                        mass = crba.answer(state), acceleration = aba.answer(state, force);
+    errors.round_trip = std::max(errors.round_trip, difference(acceleration, state.acceleration));
+    for (const auto& other : others) {
+      errors.force = std::max(errors.force, difference(force, other->inverse_dynamics(state)));
+      // What follows is slower to ask for, and the same states every time.
+      if (seed >= 50) continue;
+      errors.mass_matrix =
+          std::max(errors.mass_matrix, difference(mass, other->mass_matrix(state)));
+      if (other->name() != "KDL") {
+        errors.acceleration = std::max(
+            errors.acceleration, difference(acceleration, other->forward_dynamics(state, force)));
+      }
+      for (std::size_t i = 0; i < links.size(); ++i) {
+        const peers::Vector pose(poses.begin() + static_cast<std::ptrdiff_t>(12 * i),
+                                 poses.begin() + static_cast<std::ptrdiff_t>(12 * i + 12));
+        errors.pose = std::max(errors.pose, difference(pose, other->link_pose(state, links[i])));
+      }
+    }
+  }
+  return errors;
+}
+
+TEST(Agreement, OfPublishedRobotsWithKdlMujocoAndDart) {
+  const auto robots = published_robots();
+  if (robots.empty()) GTEST_SKIP() << "there are no robots in " SINEW_SHARED_DIR;
+  for (const Robot& robot : robots) {
+    SCOPED_TRACE(robot.name);
+    const Errors errors = compare(robot, kStates);
+    EXPECT_LT(errors.pose, 1e-10);
+    EXPECT_LT(errors.force, 1e-9);
+    EXPECT_LT(errors.mass_matrix, 1e-8);
+    EXPECT_LT(errors.acceleration, 1e-8);
+    EXPECT_LT(errors.round_trip, 1e-8);
+  }
+}
+
+TEST(Agreement, OfRandomTreesWithKdlMujocoAndDart) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("sinew-random-" + std::to_string(::getpid()) + ".urdf");
+  unsigned seed = 1;
+  for (const unsigned joints : {2u, 3u, 5u, 8u, 13u, 21u, 34u, 60u}) {
+    for (const double branching : {0.0, 0.5}) {
+      RandomRobot random;
+      random.joints = joints;
+      random.branching = branching;
+      random.seed = seed++;
+      const Robot robot{"random", file.string(), random_urdf(random)};
+      std::ofstream(file) << robot.urdf;
+      SCOPED_TRACE(testing::Message() << joints << " joints, seed " << random.seed);
+      const Errors errors = compare(robot, 20);
+      EXPECT_LT(errors.pose, 1e-10);
+      EXPECT_LT(errors.force, 1e-9);
+      EXPECT_LT(errors.mass_matrix, 1e-8);
+      EXPECT_LT(errors.acceleration, 1e-8);
+    }
+  }
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace sinew::test
