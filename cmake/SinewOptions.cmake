@@ -14,6 +14,11 @@ set(SINEW_SANITIZE "" CACHE STRING "Sanitizers to build with, for example addres
 
 add_library(sinew_options INTERFACE)
 target_compile_options(sinew_options INTERFACE -Wall -Wextra)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # Both warn of the standard library's own strings at -O3 (GCC bugs 105651 and 105562).
+  target_compile_options(sinew_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>
+                                                 $<$<COMPILE_LANGUAGE:CXX>:-Wno-maybe-uninitialized>)
+endif()
 if(SINEW_SANITIZE)
   target_compile_options(sinew_options INTERFACE -fsanitize=${SINEW_SANITIZE} -fno-omit-frame-pointer
                                                  -fno-sanitize-recover=all)
