@@ -48,13 +48,13 @@ void LibraryBuilder::read_prototypes() {
 std::optional<Index> LibraryBuilder::require_prototype(const std::string& name) {
   const auto declaration = prototype_declarations_.find(name);
   if (declaration == prototype_declarations_.end()) return std::nullopt;
+  if (open_prototypes_.count(name)) {
+    error(declaration->second->place, name, "the prototype composes itself",
+          "a composite is made of simpler prototypes");
+    return std::nullopt;
+  }
   if (!prototypes_.count(name) && !unsound_prototypes_.count(name)) {
-    if (!open_prototypes_.insert(name).second) {
-      error(declaration->second->place, name, "the prototype composes itself",
-            "a composite is made of simpler prototypes");
-      unsound_prototypes_.insert(name);
-      return std::nullopt;
-    }
+    open_prototypes_.insert(name);
     read_prototype(*declaration->second);
     open_prototypes_.erase(name);
   }
