@@ -5,6 +5,7 @@
 #include "output.h"
 #include "pipeline.h"
 #include "sinew/backend/c_target.h"
+#include "sinew/program/program_json.h"
 
 namespace sinew::cli {
 
@@ -19,8 +20,8 @@ int run_generate(Arguments arguments) {
   add_model_options(app, models_options);
   add_query_options(app, query);
   app.add_option("--name", name, "Name of the function and the files (default: the query's)");
-  app.add_option("--target", target, "Language")
-      ->check(CLI::IsMember({"c"}))
+  app.add_option("--target", target, "c, or program: the program itself as JSON")
+      ->check(CLI::IsMember({"c", "program"}))
       ->capture_default_str();
   app.add_option("--style", style,
                  "flat: optimised straight-line code; readable: a call for each closure")
@@ -31,6 +32,11 @@ int run_generate(Arguments arguments) {
 
   const auto models = load(models_options);
   const program::Program program = program_of(*models, models_options, query, name);
+  if (target == "program") {
+    write_output((std::filesystem::path(folder) / (program.name + ".program.json")).string(),
+                 program::to_json(program));
+    return kOk;
+  }
   backend::COptions options;
   options.name = program.name;
   options.style = style == "flat" ? backend::Style::kFlat : backend::Style::kReadable;

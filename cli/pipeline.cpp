@@ -11,6 +11,7 @@
 #include "sinew/model/normalise.h"
 #include "sinew/model/regroup.h"
 #include "sinew/program/lower.h"
+#include "sinew/program/program_json.h"
 #include "sinew/rdf/catalogue/catalogue.h"
 #include "sinew/synthesis/read_query.h"
 #include "sinew/synthesis/synthesise.h"
@@ -21,6 +22,9 @@ namespace {
 [[noreturn]] void fail(std::string what, std::string remedy) {
   throw Error({{}, "", std::move(what), std::move(remedy), Severity::kError, {}});
 }
+
+// A program that 'sinew generate --target program' wrote stands for all the earlier stages.
+bool is_program(const std::string& file) { return file.ends_with(".program.json"); }
 
 bool names_query(const QueryOptions& query) {
   return !query.query_file.empty() || !query.solver.empty();
@@ -105,6 +109,15 @@ graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOpt
 
 program::Program program_of(Models& models, const ModelOptions& files, const QueryOptions& options,
                             const std::string& name) {
+  if (files.files.size() == 1 && is_program(files.files.front())) {
+    if (names_query(options)) {
+      fail(files.files.front() + " answers one query already", "leave out --solver and --query");
+    }
+    const std::string& file = files.files.front();
+    program::Program program = program::from_json(read_input(file), file);
+    if (!name.empty()) program.name = name;
+    return program;
+  }
   const graph::Id algorithm = algorithm_of(models, files, options);
   std::string program_name = name;
   if (program_name.empty()) program_name = options.solver.empty() ? "program" : options.solver;
@@ -120,7 +133,10 @@ std::unique_ptr<Models> load(const ModelOptions& options) {
   model::LoadOptions load_options;
   for (const std::string& folder : options.catalogs) load_options.catalogues.emplace_back(folder);
   load_options.lenient = options.lenient;
-  const std::vector<std::filesystem::path> files(options.files.begin(), options.files.end());
+  std::vector<std::filesystem::path> files;
+  for (const std::string& file : options.files) {
+    if (!is_program(file)) files.emplace_back(file);
+  }
   Report report;
   model::load_files(files, load_options, models->store, models->places, report);
   print_notes(report);

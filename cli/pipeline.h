@@ -29,7 +29,8 @@ std::unique_ptr<Models> load(const ModelOptions& options);
 graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOptions& query,
                        std::vector<std::string>* why = nullptr);
 
-// That algorithm, lowered. `name` is the program's; empty: the query's.
+// That algorithm, lowered; or the program that the only file is, if it ends in .program.json.
+// `name` is the program's; empty: the query's.
 program::Program program_of(Models& models, const ModelOptions& files, const QueryOptions& query,
                             const std::string& name);
 
