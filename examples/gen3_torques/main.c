@@ -42,8 +42,8 @@ static const double reference_poses[STATES][POSE] = {
 
 int main(void) {
   double worst_torque = 0, worst_pose = 0;
-  if (GEN3_RNEA_IN_SIZE != 3 * JOINTS || GEN3_RNEA_OUT_SIZE != JOINTS ||
-      GEN3_FPK_IN_SIZE != JOINTS || GEN3_FPK_OUT_SIZE != POSE) {
+  if (gen3_rnea_IN_SIZE != 3 * JOINTS || gen3_rnea_OUT_SIZE != JOINTS ||
+      gen3_fpk_IN_SIZE != JOINTS || gen3_fpk_OUT_SIZE != POSE) {
     fprintf(stderr, "the generated functions have other inputs and outputs than expected\n");
     return 1;
   }
