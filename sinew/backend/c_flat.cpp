@@ -10,7 +10,8 @@
 namespace sinew::backend {
 
 RenderedSource flat_source(const program::Program& program, const program::Interface& interface,
-                           const program::Computation& computation, const Fields& common) {
+                           const program::Computation& computation, const Fields& common,
+                           std::size_t maximum_statements) {
   Fields fields = common;
   const std::string name = std::get<std::string>(common.values.at("name"));
   std::string upper = name;
@@ -18,12 +19,19 @@ RenderedSource flat_source(const program::Program& program, const program::Inter
                  [](unsigned char c) { return std::toupper(c); });
   fields.text("NAME", upper);
 
-  const FlatBody sample = flat_body(program, interface, computation, name, FlatForm::kSample);
-  const FlatBody block = flat_body(program, interface, computation, name, FlatForm::kBlock);
+  const FlatBody sample =
+      flat_body(program, interface, computation, name, FlatForm::kSample, maximum_statements);
+  const FlatBody block =
+      flat_body(program, interface, computation, name, FlatForm::kBlock, maximum_statements);
+  // A part is compiled once, for the machine that the whole file is compiled for.
+  fields.section("in_one", sample.parts.lines == 0);
   fields.section("has_angles", sample.angles > 0);
   if (sample.angles > 0) fields.text("sincos", render("c/sincos.c.mustache", fields));
   return render_with_blocks("c/flat.c.mustache", std::move(fields),
-                            {{"body", &sample.code}, {"lanes_body", &block.code}});
+                            {{"parts", &sample.parts},
+                             {"lanes_parts", &block.parts},
+                             {"body", &sample.code},
+                             {"lanes_body", &block.code}});
 }
 
 }  // namespace sinew::backend

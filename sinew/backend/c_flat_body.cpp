@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <unordered_set>
 
 #include "sinew/backend/angle_groups.h"
+#include "sinew/backend/flat_parts.h"
 #include "sinew/backend/numbers.h"
 
 namespace sinew::backend {
@@ -46,19 +48,26 @@ class Emitter {
     name_slots(interface.states, interface.in_size);
   }
 
-  FlatBody run() {
+  FlatBody run(std::size_t maximum_statements) {
     const AngleGroups groups = group_angles(computation_);
     for (const AngleGroup& group : groups.groups) {
       for (const std::uint32_t node : group.before) emit(node);
       angles(group);
     }
-    for (const std::uint32_t node : groups.after) emit(node);
-    results();
-    if (interface_.in_size == 0) result_.code.add("  (void)in;");
-    if (block_form_ && interface_.in_size + computation_.results.size() == 0) {
-      result_.code.add("  (void)n;");
+    std::vector<std::uint32_t> before;
+    for (std::uint32_t i = 0; i < names_.size(); ++i) {
+      if (!names_[i].empty() && dag_.node(i).op != Op::kInput) before.push_back(i);
     }
-    if (computation_.results.empty()) result_.code.add("  (void)out;");
+    parts_ = divide_into_parts(computation_, before, groups.after, maximum_statements);
+    if (parts_.parts.empty()) {
+      for (const std::uint32_t node : groups.after) emit(node);
+    } else {
+      call_parts(before);
+    }
+    results();
+    if (interface_.in_size == 0) line("(void)in;");
+    if (block_form_ && interface_.in_size + computation_.results.size() == 0) line("(void)n;");
+    if (computation_.results.empty()) line("(void)out;");
     return std::move(result_);
   }
 
@@ -71,20 +80,91 @@ class Emitter {
   }
 
   void line(const std::string& text, std::uint32_t origin = program::kNoOrigin) {
-    result_.code.add("  " + text, origin);
+    block_->add("  " + text, origin);
+  }
+
+  // A name that no other value of the function has.
+  std::string unique(const std::string& base) {
+    std::string name = base;
+    for (int again = 2; !used_.insert(name).second; ++again)
+      name = fmt::format("{}_{}", base, again);
+    return name;
+  }
+
+  // Keeps what the parts need of what has been computed, and calls them; their code goes to
+  // `parts`.
+  void call_parts(const std::vector<std::uint32_t>& before) {
+    const std::string states = interface_.state_size > 0 ? ", double *state" : "";
+    const std::string row = block_form_ ? ", size_t n" : "";
+    line(fmt::format("{0}_ALIGNED double kept[{1}{2}];", upper_, parts_.slots,
+                     block_form_ ? fmt::format(" * {}_LANES", upper_) : ""));
+    for (const std::uint32_t node : before) keep(node);
+    for (std::size_t k = 0; k < parts_.parts.size(); ++k) {
+      const std::string function =
+          fmt::format("{}_{}_part{}", prefix_, block_form_ ? "block" : "sample", k + 1);
+      line(fmt::format("{}(in, kept{}{});", function, states.empty() ? "" : ", state",
+                       block_form_ ? ", n" : ""));
+      block_ = &result_.parts;
+      forget();
+      block_->add(fmt::format("{}_APART void {}(const double *in, double *kept{}{}) {{", upper_,
+                              function, states, row));
+      for (const std::uint32_t node : parts_.parts[k]) {
+        emit(node);
+        keep(node);
+      }
+      line("(void)in;");
+      if (!states.empty()) line("(void)state;");
+      if (block_form_) line("(void)n;");
+      block_->add("}");
+      block_->add("");
+      block_ = &result_.code;
+    }
+    forget();
+  }
+
+  // Values that another function has computed are read from where they are kept.
+  void forget() {
+    for (std::string& name : names_) name.clear();
+  }
+
+  void keep(std::uint32_t node) {
+    const std::uint32_t slot = parts_.slot[node];
+    if (slot == FlatParts::kNoSlot) return;
+    if (block_form_) {
+      line(fmt::format("memcpy(kept + {0} * {1}_LANES, &{2}, sizeof {2});", slot, upper_,
+                       names_[node]));
+    } else {
+      line(fmt::format("kept[{}] = {};", slot, names_[node]));
+    }
+  }
+
+  void read_kept(std::uint32_t node) {
+    names_[node] = unique(fmt::format("k{}", parts_.slot[node]));
+    if (block_form_) {
+      line(fmt::format("{0} {1}; memcpy(&{1}, kept + {2} * {3}_LANES, sizeof {1});", type_,
+                       names_[node], parts_.slot[node], upper_));
+    } else {
+      line(fmt::format("const double {} = kept[{}];", names_[node], parts_.slot[node]));
+    }
   }
 
   // The name of a node that has been emitted, or its number.
   std::string value(std::uint32_t i) {
     const Node& node = dag_.node(i);
     if (node.op == Op::kConstant) return c_number(node.value);
-    if (node.op == Op::kInput && names_[i].empty()) read_input(i, node);
+    if (names_[i].empty()) {
+      if (node.op == Op::kInput) {
+        read_input(i, node);
+      } else {
+        read_kept(i);
+      }
+    }
     return names_[i];
   }
   std::string value(Ref ref) { return (ref.negative() ? "-" : "") + value(ref.node()); }
 
   void read_input(std::uint32_t i, const Node& node) {
-    names_[i] = input_names_[node.index];
+    names_[i] = unique(input_names_[node.index]);
     if (block_form_) {
       line(fmt::format("{0} {1}; memcpy(&{1}, {2}, sizeof {1});", type_, names_[i],
                        input_address(node.index)));
@@ -99,7 +179,7 @@ class Emitter {
     const Node& node = dag_.node(i);
     if (node.op == Op::kSin || node.op == Op::kCos) return;  // the group has made it
     const std::string expression = express(node);
-    names_[i] = fmt::format("t{}", ++count_);
+    names_[i] = unique(fmt::format("t{}", ++count_));
     if (block_form_ && (node.op == Op::kSqrt || node.op == Op::kSelect)) {
       lane_by_lane(i, node);
       return;
@@ -172,7 +252,8 @@ class Emitter {
     constexpr std::size_t kWidest = 8;  // lanes; arrays are padded to them
     const std::size_t n = group.angles.size();
     const std::size_t padded = (n + kWidest - 1) / kWidest * kWidest;
-    const std::string tag = result_.angles == 0 ? "" : std::to_string(result_.angles);
+    const std::string tag = result_.angles == 0 ? "" : fmt::format("_{}", result_.angles);
+    for (const char* array : {"angle", "sine", "cosine"}) used_.insert(array + tag);
     const std::string lanes = block_form_ ? fmt::format("{} * {}_LANES", n, upper_) : "";
     line(fmt::format("{2}_ALIGNED double sine{0}[{1}], cosine{0}[{1}];", tag,
                      block_form_ ? lanes : std::to_string(padded), upper_));
@@ -233,14 +314,14 @@ class Emitter {
 
   void take(std::uint32_t node, const std::string& name, const std::string& array, std::size_t k) {
     if (node == AngleGroup::kNone) return;
-    names_[node] = name;
+    names_[node] = unique(name);
     const std::uint32_t origin = dag_.node(node).origin;
     if (block_form_) {
-      line(fmt::format("{0} {1}; memcpy(&{1}, {2} + {3} * {4}_LANES, sizeof {1});", type_, name,
-                       array, k, upper_),
+      line(fmt::format("{0} {1}; memcpy(&{1}, {2} + {3} * {4}_LANES, sizeof {1});", type_,
+                       names_[node], array, k, upper_),
            origin);
     } else {
-      line(fmt::format("const double {} = {}[{}];", name, array, k), origin);
+      line(fmt::format("const double {} = {}[{}];", names_[node], array, k), origin);
     }
   }
 
@@ -279,14 +360,20 @@ class Emitter {
   std::vector<std::string> input_names_;
   std::uint32_t count_ = 0;
   bool zero_ = false;
+  FlatParts parts_;
+  std::unordered_set<std::string> used_ = {
+      "in",     "out", "state", "n", "kept", "angle",   "sine",    "cosine",  "lane",   "zero",
+      "result", "y",   "a",     "b", "x",    "a_lanes", "b_lanes", "x_lanes", "y_lanes"};
   FlatBody result_;
+  CodeBlock* block_ = &result_.code;
 };
 
 }  // namespace
 
 FlatBody flat_body(const program::Program& program, const program::Interface& interface,
-                   const Computation& computation, const std::string& name, FlatForm form) {
-  return Emitter(program, interface, computation, name, form).run();
+                   const Computation& computation, const std::string& name, FlatForm form,
+                   std::size_t maximum_statements) {
+  return Emitter(program, interface, computation, name, form).run(maximum_statements);
 }
 
 }  // namespace sinew::backend

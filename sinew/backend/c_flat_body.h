@@ -14,11 +14,13 @@ enum class FlatForm {
 };
 
 struct FlatBody {
+  CodeBlock parts;  // functions that `code` calls; empty for all but very long programs
   CodeBlock code;
   std::size_t angles = 0;  // whose sine or cosine is taken
 };
 
 FlatBody flat_body(const program::Program& program, const program::Interface& interface,
-                   const program::Computation& computation, const std::string& name, FlatForm form);
+                   const program::Computation& computation, const std::string& name, FlatForm form,
+                   std::size_t maximum_statements);
 
 }  // namespace sinew::backend

@@ -49,7 +49,8 @@ Fields common_fields(const program::Program& program, const program::Interface& 
 std::vector<std::string> variable_identifiers(const program::Program& program);
 
 RenderedSource flat_source(const program::Program& program, const program::Interface& interface,
-                           const program::Computation& computation, const Fields& common);
+                           const program::Computation& computation, const Fields& common,
+                           std::size_t maximum_statements);
 RenderedSource readable_source(const program::Program& program, const program::Interface& interface,
                                const Fields& common);
 

@@ -157,9 +157,10 @@ GeneratedCode generate_c(const program::Program& program, const COptions& option
   GeneratedCode code;
   code.operations = program::count_operations(computation);
   const Fields common = common_fields(live, interface, options, code.operations);
-  const RenderedSource source = options.style == Style::kFlat
-                                    ? flat_source(live, interface, computation, common)
-                                    : readable_source(live, interface, common);
+  const RenderedSource source =
+      options.style == Style::kFlat
+          ? flat_source(live, interface, computation, common, options.maximum_statements)
+          : readable_source(live, interface, common);
   code.files.push_back({options.name + ".h", render("c/header.h.mustache", common)});
   code.files.push_back({options.name + ".c", source.text});
   code.files.push_back({options.name + ".json", sidecar(live, interface, options, code.operations,

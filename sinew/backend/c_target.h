@@ -22,6 +22,7 @@ struct COptions {
   Style style = Style::kFlat;
   std::string source;  // what it was made from, for the banner: "gen3.urdf, solver rnea"
   program::OptimiseOptions passes;
+  std::size_t maximum_statements = 4000;  // of one flat function; more become several functions
 };
 
 struct SourceFile {

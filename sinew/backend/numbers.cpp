@@ -37,7 +37,8 @@ constexpr std::string_view kReserved[] = {
     "typedef",      "typeid",    "typename",      "union",
     "unsigned",     "using",     "virtual",       "void",
     "volatile",     "wchar_t",   "while",         "xor",
-    "xor_eq"};
+    "xor_eq",       "NULL",      "NAN",           "INFINITY",
+    "HUGE_VAL"};
 
 }  // namespace
 

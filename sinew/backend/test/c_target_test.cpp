@@ -154,6 +154,49 @@ TEST(GeneratedC, GivesTheSameBitsInASingleCallAndAnywhereInABatch) {
   }
 }
 
+TEST(GeneratedC, ComesInSeveralFunctionsWhereItIsLong) {
+  const program::Program program = test::inverse_dynamics(test::mixed_chain(), true);
+  backend::Interpreter interpreter(program);
+  backend::COptions options;
+  options.name = "chain";
+  options.maximum_statements = 60;
+  const backend::GeneratedCode code = generate_c(program, options);
+  EXPECT_NE(code.files[1].text.find("chain_sample_part3("), std::string::npos);
+  for (const char* compiler : {"gcc", "clang-19"}) {
+    backend::CompileOptions compile;
+    compile.compiler = compiler;
+    compile.flags = {"-O1", "-march=native"};
+    compile.flags.insert(compile.flags.end(), std::begin(kStrict), std::end(kStrict));
+    const backend::LoadedCode loaded = compile_and_load(code, compile);
+    const std::size_t n = 11;
+    const std::vector<double> in = random_inputs(21 * n, 3);
+    std::vector<double> out(19 * n);
+    loaded.batch()(in.data(), out.data(), n);
+    for (std::size_t k = 0; k < n; ++k) {
+      std::vector<double> one_in(21), one_out(19), expected(19);
+      for (std::size_t i = 0; i < 21; ++i) one_in[i] = in[i * n + k];
+      interpreter.evaluate(one_in.data(), expected.data());
+      loaded.function()(one_in.data(), one_out.data());
+      for (std::size_t i = 0; i < 19; ++i) {
+        EXPECT_NEAR(one_out[i], expected[i], 1e-12 * (1 + std::abs(expected[i])));
+        EXPECT_EQ(one_out[i], out[i * n + k]);
+      }
+    }
+  }
+}
+
+TEST(GeneratedC, CompilesWhateverTheVariablesAreCalled) {
+  program::Program program = test::inverse_dynamics(test::mixed_chain());
+  const char* names[] = {"t1",   "t2",  "in",        "out",  "sine",   "sin",  "NAN",
+                         "1",    "a b", "A\xc3\xa9", "*/",   "while",  "n",    "kept",
+                         "lane", "y",   "angle",     "main", "sin_t1", "in_k", "state"};
+  std::size_t k = 0;
+  for (program::Variable& v : program.variables) {
+    if (v.role == program::Role::kInput) v.name = names[k++ % std::size(names)];
+  }
+  for (const Case& c : cases()) EXPECT_NO_THROW(load(program, c));
+}
+
 TEST(GeneratedC, CarriesStates) {
   // total += in, six numbers at once.
   program::Program sum;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <span>
 
 #include "sinew/program/passes/factor_sums.h"
 #include "sinew/program/passes/fuse_multiply_add.h"
@@ -22,24 +23,28 @@ struct Pass {
 
 // Constants, identities, value numbering and signs need no pass: the graph's constructors see to
 // them whenever a pass writes a graph.
-constexpr Pass kPasses[] = {
+
+constexpr Pass kFirst[] = {
     {"share denominators", share_denominators},
+};
+
+// Each makes work for the others: again as long as operations vanish.
+constexpr Pass kSimplify[] = {
     {"merge terms", merge_terms},
     {"factor sums", factor_sums},
     {"share sums", share_sums},
-    {"merge terms", merge_terms},
-    {"factor sums", factor_sums},
-    {"share sums", share_sums},
+};
+constexpr int kMaximumRounds = 4;
+
+constexpr Pass kLast[] = {
     {"reassociate", reassociate},
     {"fuse multiply-add", fuse_multiply_add},
     {"schedule", schedule},
 };
 
-}  // namespace
-
-Computation optimise(Computation computation, const OptimiseOptions& options) {
+void run(std::span<const Pass> passes, Computation& computation, const OptimiseOptions& options) {
   using Clock = std::chrono::steady_clock;
-  for (const Pass& pass : kPasses) {
+  for (const Pass& pass : passes) {
     PassReport report;
     report.name = pass.name;
     if (options.trace) report.before = count_operations(computation);
@@ -51,6 +56,20 @@ Computation optimise(Computation computation, const OptimiseOptions& options) {
     report.nodes_after = computation.dag.size();
     options.trace(report);
   }
+}
+
+}  // namespace
+
+Computation optimise(Computation computation, const OptimiseOptions& options) {
+  run(kFirst, computation, options);
+  OperationCount before = count_operations(computation);
+  for (int round = 0; round < kMaximumRounds; ++round) {
+    run(kSimplify, computation, options);
+    const OperationCount after = count_operations(computation);
+    if (after.add + after.multiply >= before.add + before.multiply) break;
+    before = after;
+  }
+  run(kLast, computation, options);
   return computation;
 }
 
