@@ -157,7 +157,7 @@ std::shared_ptr<const Plan> Planner::run() {
   };
   for (Op& op : plan_->ops) {
     const bool ends = op.kind == OpKind::kEmit || op.kind == OpKind::kFound;
-    op.next = ends ? kNone : target(op.next);
+    op.next = ends || op.next == kNone ? kNone : target(op.next);
     if (op.body != kNone && op.kind != OpKind::kUnion) op.body = target(op.body);
   }
   for (Index& branch : plan_->branches) branch = target(branch);

@@ -216,8 +216,7 @@ Index Planner::sub_plan(const Pattern& pattern, const VariableSet& columns,
   const Index skip = add_op(OpKind::kJump);
   Context inside = context;
   inside.bound = context.fixed;
-  inside.maybe = context.constants;
-  inside.maybe.remove(context.fixed);
+  inside.maybe = {};
   SubPlan table;
   for (const Variable variable : context.constants) {
     const Slot read = slot(variable, context);
@@ -230,9 +229,7 @@ Index Planner::sub_plan(const Pattern& pattern, const VariableSet& columns,
     Block rows;
     rows.first = next_op();
     for (const Variable variable : columns) rows.columns.push_back(slot(variable, inside));
-    std::vector<Item> items;
-    gather_safely(pattern, inside, items);
-    order_and_emit(items, inside);
+    emit_pattern(pattern, inside);
     const Index emit = add_op(OpKind::kEmit);
     table.block = static_cast<Index>(plan_->blocks.size());
     plan_->ops[emit].item = table.block;

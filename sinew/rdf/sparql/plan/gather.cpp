@@ -216,7 +216,7 @@ bool can_spread(const Pattern& part, Variable graph) {
                           });
     case Kind::kLeftJoin:
       return can_spread(part.parts[0], graph) && part.conditions.empty() &&
-             part.parts[1].kind == Kind::kTriples;
+             part.parts[1].kind == Kind::kTriples && !part.parts[1].possible.has(graph);
     default:
       return false;
   }

@@ -21,7 +21,8 @@ struct Context {
   // Known from outside as if it were written as a constant: parameters, the graph's variable, and
   // in EXISTS the variables of the solution that is tested.
   VariableSet constants;
-  VariableSet fixed;  // those of the constants that surely have a value
+  // Those of the constants that surely have a value: all, but in an EXISTS without inner scopes.
+  VariableSet fixed;
   VariableSet bound;  // surely bound by what ran before, `fixed` included
   VariableSet maybe;  // perhaps, or surely, bound by what ran before, `fixed` not included
   // Variables that have another slot here, because the one they have elsewhere may hold a value
@@ -130,6 +131,9 @@ class Planner {
   Index expression(const algebra::Expression& source, const VariableSet& visible,
                    const Context& context);
   Index exists_body(const Pattern& pattern, const VariableSet& visible, const Context& context);
+  void exists_variant(const Pattern& pattern, const Context& outer, Context inside);
+  void exists_variants(const Pattern& pattern, const Context& outer, const Context& inside,
+                       const std::vector<Variable>& open);
 
   const algebra::Query& query_;
   const graph::View& view_;
