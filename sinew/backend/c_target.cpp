@@ -40,7 +40,7 @@ FieldList slots(const program::Program& program, const std::vector<program::Slot
 }
 
 std::string plural(std::uint32_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
+  return count == 0 ? "" : fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
 std::string banner(const COptions& options, const program::OperationCount& n) {
@@ -48,11 +48,16 @@ std::string banner(const COptions& options, const program::OperationCount& n) {
   if (!options.source.empty()) text += " from " + c_comment(options.source);
   text += "; do not edit.";
   if (options.style == Style::kFlat) {
-    text += fmt::format(
-        "\n * One evaluation: {}, {}, {}, {}, {}.", plural(n.add, "addition", "additions"),
-        plural(n.multiply, "multiplication", "multiplications"),
-        plural(n.divide, "division", "divisions"), plural(n.sqrt, "square root", "square roots"),
-        plural(n.sincos, "sine and cosine", "sines and cosines"));
+    std::string list;
+    for (const std::string& count :
+         {plural(n.add, "addition", "additions"),
+          plural(n.multiply, "multiplication", "multiplications"),
+          plural(n.divide, "division", "divisions"), plural(n.sqrt, "square root", "square roots"),
+          plural(n.sincos, "sine and cosine", "sines and cosines"),
+          plural(n.select, "choice", "choices")}) {
+      if (!count.empty()) list += (list.empty() ? "" : ", ") + count;
+    }
+    text += "\n * One evaluation: " + (list.empty() ? "no operations" : list) + ".";
   }
   return text;
 }

@@ -57,6 +57,8 @@ std::string render(std::string_view path, const Fields& fields) {
                         Severity::kError,
                         {}});
   }
+  // The line of the comment that every template begins with.
+  if (!result.empty() && result.front() == '\n') result.erase(0, 1);
   return result;
 }
 
