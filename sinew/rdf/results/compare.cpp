@@ -98,6 +98,10 @@ Comparison compare_results(const ResultSet& left, const ResultSet& right, bool o
   Rows left_rows = left.rows, right_rows = rearranged(right, left.columns);
   const auto count =
       fmt::format("{} rows on the left, {} on the right", left_rows.size(), right_rows.size());
+  if (!ordered) {
+    std::ranges::sort(left_rows);
+    std::ranges::sort(right_rows);
+  }
   if (left_rows == right_rows) return {Likeness::kIsomorphic, {}};
   Comparison result = different({});
   if (left_rows.size() == right_rows.size()) {
