@@ -57,7 +57,8 @@ void Expander::expand_keyword(Node& node, std::string_view key, const json::Memb
     const bool free = node.property.data() == nullptr || node.property == keyword::kGraph;
     if (free) {
       if (check_ != nullptr) {
-        check_->dropped_value(source_, value, "a list stands where a node is expected",
+        check_->dropped_value(source_, value, blamed_node(),
+                              "a list stands where a node is expected",
                               "the list in a property of a node");
       }
       return;
@@ -83,7 +84,8 @@ json::Value Expander::expand_id(Node& node, const json::Value& value) {
             "one IRI");
   }
   const std::string_view id = iri(*node.active, value.text(), kAsId);
-  if (check_ != nullptr && !is_iri_or_blank_node(id)) check_->relative_id(source_, value, id);
+  if (check_ != nullptr && !is_iri_or_blank_node(id))
+    check_->relative_id(source_, value, std::string(id));
   if (id.data() == nullptr) return {};
   return json::Value::string(id, value.position());
 }
@@ -97,7 +99,7 @@ json::Value Expander::expand_types(Node& node, const json::Value& value) {
     const std::string_view expanded = iri(*node.type_scoped, type.text(), kAsType);
     if (check_ != nullptr && expanded != keyword::kJson &&
         !means_something(*node.type_scoped, type.text())) {
-      check_->undefined_term(*node.type_scoped, source_, type, "type", node_iri(node));
+      check_->undefined_term(*node.type_scoped, source_, type, "type", blamed_node());
     }
     if (expanded.data() == nullptr) return {};
     return json::Value::string(expanded, type.position());

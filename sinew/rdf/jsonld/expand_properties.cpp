@@ -122,14 +122,14 @@ json::Value Expander::expand_index_entry(Node& node, Property key, const TermDef
     } else if (by_id && !none && item.find(keyword::kId) == nullptr) {
       const std::string_view id = iri(*node.active, entry.name(), kAsId);
       if (check_ != nullptr && !is_iri_or_blank_node(id)) {
-        check_->relative_id(source_, entry.key, id);
+        check_->relative_id(source_, entry.key, std::string(id));
       }
       item.add(arena_, keyword_value(keyword::kId), text(id));
     } else if (by_type && !none) {
       json::Value types = json::Value::array(arena_, entry.key.position());
       const std::string_view type = iri(*node.active, entry.name(), kAsType);
       if (check_ != nullptr && !means_something(*node.active, entry.name())) {
-        check_->undefined_term(*node.active, source_, entry.key, "type", node_iri(node));
+        check_->undefined_term(*node.active, source_, entry.key, "type", blamed_node());
       }
       types.append(arena_, text(type));
       if (const json::Value* earlier = item.find(keyword::kType)) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "sinew/rdf/jsonld/iri_expansion.h"
 
@@ -33,6 +34,11 @@ std::string Expander::node_iri(const Node& node) const {
     return std::string(iri(*node.active, member.value.text(), kAsId));
   }
   return {};
+}
+
+std::string Expander::blamed_node() const {
+  const bool known = innermost_ != nullptr && check_ != nullptr && check_->wants_details();
+  return known ? node_iri(*innermost_) : std::string();
 }
 
 bool Expander::means_something(const Context& active, std::string_view text) const {
@@ -87,7 +93,7 @@ json::Value Expander::expand_scalar(const Context* active, Property property,
                                     const json::Value& scalar) {
   if (is_top_level(property)) {
     if (check_ != nullptr) {
-      check_->dropped_value(source_, scalar,
+      check_->dropped_value(source_, scalar, blamed_node(),
                             fmt::format("{} stands where a node is expected", describe(scalar)),
                             "an object, with the value in one of its properties");
     }
@@ -185,6 +191,7 @@ json::Value Expander::expand_object(const Context* active, Property property,
 }
 
 void Expander::expand_entries(Node& node) {
+  const Node* const outer = std::exchange(innermost_, &node);
   std::vector<const json::Member*> nests;
   const auto expand_entry = [&](const json::Member& entry) {
     if (entry.name() == keyword::kContext) return;
@@ -201,7 +208,7 @@ void Expander::expand_entries(Node& node) {
       // A term that a context maps to null is left out on purpose.
       const TermDefinition* definition = node.active->terms.find(entry.name());
       if (definition == nullptr || !definition->iri.empty()) {
-        check_->undefined_key(*node.active, source_, entry.key, node_iri(node));
+        check_->undefined_key(*node.active, source_, entry.key, blamed_node());
       }
     }
   };
@@ -211,6 +218,7 @@ void Expander::expand_entries(Node& node) {
     for (const json::Member& entry : node.element->members()) expand_entry(entry);
   }
   if (!nests.empty()) expand_nests(node, nests);
+  innermost_ = outer;
 }
 
 // The properties of a nested object belong to the node itself.
@@ -258,7 +266,8 @@ json::Value Expander::finish(Node& node) {
       result.find(keyword::kValue) != nullptr || result.find(keyword::kList) != nullptr;
   if (empty || free_value || only_entry(result, keyword::kId)) {
     if (check_ != nullptr && free_value) {
-      check_->dropped_value(source_, *node.element, "a value stands where a node is expected",
+      check_->dropped_value(source_, *node.element, blamed_node(),
+                            "a value stands where a node is expected",
                             "the value in a property of a node");
     }
     return {};
@@ -322,9 +331,9 @@ json::Value Expander::expand_value(const Context& active, Property property,
     const std::string_view id = iri(active, value.text(), vocab ? kAsType : kAsId);
     if (check_ != nullptr) {
       if (vocab && !means_something(active, value.text())) {
-        check_->undefined_term(active, source_, value, "value", "");
+        check_->undefined_term(active, source_, value, "value", blamed_node());
       } else if (!vocab && !is_iri_or_blank_node(id)) {
-        check_->relative_id(source_, value, id);
+        check_->relative_id(source_, value, blamed_node());
       }
     }
     result.add(arena_, keyword_value(keyword::kId),

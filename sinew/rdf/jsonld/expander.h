@@ -89,7 +89,9 @@ class Expander {
   }
   // True when the text is a term, a compact IRI or an IRI, and not merely relative to the document.
   bool means_something(const Context& active, std::string_view text) const;
-  std::string node_iri(const Node& node) const;  // for messages
+  // For messages: the IRI of a node, of the node whose entries are being expanded.
+  std::string node_iri(const Node& node) const;
+  std::string blamed_node() const;
   [[noreturn]] void fail_at(std::string_view code, const Node& node, const json::Value& at,
                             std::string what, std::string remedy) const;
   bool json_ld_10() const { return options_.processing_mode == ProcessingMode::kJsonLd10; }
@@ -99,6 +101,7 @@ class Expander {
   const Options& options_;
   Source source_;
   ModelCheck* check_;
+  const Node* innermost_ = nullptr;  // whose entries are being expanded
 };
 
 }  // namespace sinew::jsonld

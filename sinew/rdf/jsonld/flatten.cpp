@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <vector>
 
+#include "sinew/rdf/json/writer.h"
 #include "sinew/rdf/jsonld/iri_expansion.h"
 
 namespace sinew::jsonld {
 namespace {
+
+// From here on, values are looked up and not compared one by one.
+constexpr std::size_t kManyValues = 32;
 
 std::vector<json::Member> members_of(const json::Value& object, bool ordered) {
   std::vector<json::Member> result(object.members().begin(), object.members().end());
@@ -63,7 +67,16 @@ json::Value NodeMap::node_in(json::Value& graph, const json::Value& id) {
 }
 
 void NodeMap::add_new(json::Value& node, const json::Value& key, const json::Value& value) {
-  if (const json::Value* values = node.find(key.text())) {
+  const json::Value* values = node.find(key.text());
+  if (values != nullptr && values->items().size() >= kManyValues) {
+    const auto [entry, is_new] = large_.try_emplace(values->identity());
+    if (is_new) {
+      for (const json::Value& known : values->items()) {
+        entry->second.insert(json::to_canonical_text(known));
+      }
+    }
+    if (!entry->second.insert(json::to_canonical_text(value)).second) return;
+  } else if (values != nullptr) {
     for (const json::Value& known : values->items()) {
       if (json::equal(known, value)) return;
     }

@@ -2,8 +2,10 @@
 // references everywhere else, and a label for every blank node.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "sinew/rdf/jsonld/errors.h"
 #include "sinew/rdf/jsonld/expanded.h"
@@ -49,6 +51,8 @@ class NodeMap {
   json::Value graphs_;         // name to graph
   json::Value default_graph_;  // identifier to node
   std::unordered_map<std::string_view, std::string_view> labels_;
+  // The values of properties that have many, by the address of their array.
+  std::unordered_map<const void*, std::unordered_set<std::string>> large_;
   std::size_t next_label_ = 0;
 };
 

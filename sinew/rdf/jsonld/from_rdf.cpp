@@ -1,16 +1,46 @@
 #include "sinew/rdf/jsonld/from_rdf.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <unordered_set>
 #include <utility>
 
 #include "sinew/graph/store.h"
+#include "sinew/rdf/json/reader.h"
+#include "sinew/rdf/jsonld/errors.h"
 #include "sinew/rdf/jsonld/rdf_names.h"
 
 namespace sinew::jsonld {
 
 using graph::Id;
+
+namespace {
+
+// Nothing that comes later, recursive or not, has to expect more.
+void check_depth(const json::Value& document) {
+  std::vector<std::pair<json::Value, std::size_t>> open = {{document, 0}};
+  while (!open.empty()) {
+    const auto [value, depth] = open.back();
+    open.pop_back();
+    if (depth > json::kMaxDepth) {
+      fail(code::kLoadingDocumentFailed, {}, "",
+           fmt::format("lists are nested more than {} deep", json::kMaxDepth),
+           "a graph with flatter lists");
+    }
+    for (const json::Value& item : value.items()) {
+      if (item.is_array() || item.is_object()) open.emplace_back(item, depth + 1);
+    }
+    for (const json::Member& member : value.members()) {
+      if (member.value.is_array() || member.value.is_object()) {
+        open.emplace_back(member.value, depth + 1);
+      }
+    }
+  }
+}
+
+}  // namespace
 
 FromRdf::FromRdf(const graph::Terms& terms, const Options& options, json::Arena& arena,
                  FromRdfStyle style)
@@ -31,7 +61,9 @@ json::Value FromRdf::document(std::span<const graph::Quad> quads) {
     make_lists(graph);
     if (style_.embed_blank_nodes) embed(graph);
   }
-  return document_of_graphs();
+  json::Value result = document_of_graphs();
+  check_depth(result);
+  return result;
 }
 
 FromRdf::Graph& FromRdf::graph(Id name) {
@@ -97,12 +129,18 @@ const FromRdf::Usage* FromRdf::only_usage(const Graph& graph, Id node) const {
   return &*found->second;
 }
 
-Id FromRdf::home(const Graph& graph, Id cell) const {
+Id FromRdf::home(Graph& graph, Id cell) {
+  Id result = cell;
+  for (auto next = graph.holder.find(result); next != graph.holder.end();
+       next = graph.holder.find(result)) {
+    result = next->second;
+  }
+  // Later look-ups take the short way.
   for (auto next = graph.holder.find(cell); next != graph.holder.end();
        next = graph.holder.find(cell)) {
-    cell = next->second;
+    cell = std::exchange(next->second, result);
   }
-  return cell;
+  return result;
 }
 
 // From the end of each list back to its head. A list that contains itself stays as it is.

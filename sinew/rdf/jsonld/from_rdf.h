@@ -37,7 +37,8 @@ class FromRdf {
   FromRdf(const graph::Terms& terms, const Options& options, json::Arena& arena,
           FromRdfStyle style = {});
 
-  // No quad may come twice. Nodes come in the order in which the quads first mention them; with
+  // No quad may come twice. Throws Error where lists are nested deeper than a JSON document may be
+  // (json::kMaxDepth). Nodes come in the order in which the quads first mention them; with
   // Options::ordered, sorted by their identifiers.
   json::Value document(std::span<const graph::Quad> quads);
 
@@ -71,7 +72,7 @@ class FromRdf {
   void embed_into(Graph& graph, graph::Id node, const Usage& usage);
   const Usage* only_usage(const Graph& graph, graph::Id node) const;
   // The node in whose lists a cell has ended up.
-  graph::Id home(const Graph& graph, graph::Id cell) const;
+  static graph::Id home(Graph& graph, graph::Id cell);
   bool is_list_cell(const json::Value& node) const;
   json::Value nodes_of(const Graph& graph);
   json::Value document_of_graphs();

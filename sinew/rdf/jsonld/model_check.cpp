@@ -28,7 +28,7 @@ std::string_view scope_of(const Context& active, std::string_view key) {
   return result;
 }
 
-std::string remedy_for(const Context& active, std::string_view text) {
+std::string nearest_term(const Context& active, std::string_view text) {
   if (const std::string_view scope = scope_of(active, text); !scope.empty()) {
     return fmt::format("it is defined for nodes of type \"{}\" only: add that type", scope);
   }
@@ -41,10 +41,16 @@ std::string remedy_for(const Context& active, std::string_view text) {
     });
   }
   if (!nearest.found().empty()) return fmt::format("did you mean \"{}\"?", nearest.found());
-  return "a term of the contexts that the file lists; or list the context that defines it";
+  return {};
 }
 
 }  // namespace
+
+std::string ModelCheck::remedy_for(const Context& active, std::string_view text) const {
+  std::string nearest = wants_details() ? nearest_term(active, text) : "";
+  if (!nearest.empty()) return nearest;
+  return "a term of the contexts that the file lists; or list the context that defines it";
+}
 
 void ModelCheck::add(Place place, std::string node, std::string what, std::string remedy) {
   Problem problem{std::move(place),
@@ -53,6 +59,7 @@ void ModelCheck::add(Place place, std::string node, std::string what, std::strin
                   std::move(remedy),
                   lenient_ ? Severity::kWarning : Severity::kError,
                   ""};
+  ++faults_;
   report_.add(std::move(problem));
 }
 
@@ -69,16 +76,15 @@ void ModelCheck::undefined_term(const Context& active, const Source& source,
       remedy_for(active, text.text()));
 }
 
-void ModelCheck::relative_id(const Source& source, const json::Value& id,
-                             std::string_view expanded) {
-  add(place_in(source, id.position()), std::string(expanded),
+void ModelCheck::relative_id(const Source& source, const json::Value& id, std::string node) {
+  add(place_in(source, id.position()), std::move(node),
       fmt::format("\"{}\" is a relative IRI, and nothing says relative to what", id.text()),
       "a prefix that a context defines, an absolute IRI, or \"@base\" in the context");
 }
 
-void ModelCheck::dropped_value(const Source& source, const json::Value& value, std::string what,
-                               std::string remedy) {
-  add(place_in(source, value.position()), "", std::move(what), std::move(remedy));
+void ModelCheck::dropped_value(const Source& source, const json::Value& value, std::string node,
+                               std::string what, std::string remedy) {
+  add(place_in(source, value.position()), std::move(node), std::move(what), std::move(remedy));
 }
 
 void ModelCheck::dropped_quad(Place place, std::string node, std::string what, std::string remedy) {

@@ -89,12 +89,23 @@ void TermDefiner::define(const json::Member& member) {
   if (term.text().empty()) {
     fail_at(code::kInvalidTermDefinition, term, "a term is the empty string", "a name");
   }
-  progress = Progress::kUnderWay;
-  check_keyword(term, member.value);
-  if (!is_keyword(term.text()) && has_keyword_form(term.text())) {
-    progress = Progress::kDone;  // reserved, and ignored
-    return;
+  if (depth_ == kMaxTermDependencies) {
+    fail_at(
+        code::kContextOverflow, term,
+        fmt::format("terms depend on each other in a chain of more than {}", kMaxTermDependencies),
+        "absolute IRIs as their \"@id\"");
   }
+  progress = Progress::kUnderWay;
+  ++depth_;
+  define_term(member, progress);
+  --depth_;
+  progress = Progress::kDone;
+}
+
+void TermDefiner::define_term(const json::Member& member, Progress& progress) {
+  const json::Value& term = member.key;
+  check_keyword(term, member.value);
+  if (!is_keyword(term.text()) && has_keyword_form(term.text())) return;  // reserved, and ignored
   const TermDefinition* previous = context_.terms.find(term.text());
   if (previous != nullptr) context_.terms.set(arena_, term.text(), nullptr);
 
@@ -114,11 +125,7 @@ void TermDefiner::define(const json::Member& member) {
   definition->position = term.position();
   definition->is_protected = is_protected(value);
   define_type(*definition, value);
-  // The compact form of the term itself, if it is checked below, is its IRI.
-  if (!define_iri(*definition, term, value, simple)) {
-    progress = Progress::kDone;
-    return;
-  }
+  if (!define_iri(*definition, term, value, simple, progress)) return;
   define_containers(*definition, value);
   define_index(*definition, value);
   define_context(*definition, term, value);
@@ -139,7 +146,6 @@ void TermDefiner::define(const json::Member& member) {
   }
   if (result->is_protected) context_.has_protected_terms = true;
   context_.terms.set(arena_, term.text(), result);
-  progress = Progress::kDone;
 }
 
 void TermDefiner::check_keyword(const json::Value& term, const json::Value& value) const {
@@ -188,11 +194,11 @@ void TermDefiner::define_type(TermDefinition& definition, const json::Value& val
 }
 
 bool TermDefiner::define_iri(TermDefinition& definition, const json::Value& term,
-                             const json::Value& value, bool simple) {
+                             const json::Value& value, bool simple, Progress& progress) {
   if (value.find(keyword::kReverse) != nullptr) return define_reverse(definition, value);
   const json::Value* id = value.find(keyword::kId);
   if (id != nullptr && !id->is_string(term.text())) {
-    return define_id(definition, term, *id, simple);
+    return define_id(definition, term, *id, simple, progress);
   }
   define_implied_iri(definition, term);
   return true;
@@ -228,7 +234,7 @@ bool TermDefiner::define_reverse(TermDefinition& definition, const json::Value& 
 }
 
 bool TermDefiner::define_id(TermDefinition& definition, const json::Value& term,
-                            const json::Value& id, bool simple) {
+                            const json::Value& id, bool simple, Progress& progress) {
   if (id.is_null()) return true;
   if (!id.is_string()) {
     fail_at(code::kInvalidIriMapping, id, fmt::format("\"@id\" is {}", describe(id)),
@@ -247,8 +253,8 @@ bool TermDefiner::define_id(TermDefinition& definition, const json::Value& term,
   }
   const bool has_slash = term.text().find('/') != std::string_view::npos;
   if (has_colon_inside(term.text()) || has_slash) {
-    progress_[static_cast<std::size_t>(local_.find_member(term.text()) - local_.members().data())] =
-        Progress::kDone;
+    // The term is looked at as an IRI, without what is defined for it here.
+    progress = Progress::kDone;
     const std::string_view expanded = expand(term.text(), kAsProperty);
     if (expanded != definition.iri) {
       fail_at(

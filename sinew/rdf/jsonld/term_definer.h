@@ -10,6 +10,9 @@
 
 namespace sinew::jsonld {
 
+// Terms that depend on terms that depend on terms ...: beyond this, "context overflow".
+inline constexpr std::size_t kMaxTermDependencies = 500;
+
 class TermDefiner {
  public:
   // Defines terms in `context`, as the object `local` says.
@@ -25,11 +28,12 @@ class TermDefiner {
   enum class Progress : std::uint8_t { kOpen, kUnderWay, kDone };
 
   void define(const json::Member& member);
+  void define_term(const json::Member& member, Progress& progress);
   bool define_iri(TermDefinition& definition, const json::Value& term, const json::Value& value,
-                  bool simple);
+                  bool simple, Progress& progress);
   bool define_reverse(TermDefinition& definition, const json::Value& value);
   bool define_id(TermDefinition& definition, const json::Value& term, const json::Value& id,
-                 bool simple);
+                 bool simple, Progress& progress);
   void define_implied_iri(TermDefinition& definition, const json::Value& term);
   void define_type(TermDefinition& definition, const json::Value& value);
   void define_containers(TermDefinition& definition, const json::Value& value);
@@ -53,6 +57,7 @@ class TermDefiner {
   const json::Value& local_;
   const ContextProcessor::Job& job_;
   bool protected_by_default_ = false;
+  std::size_t depth_ = 0;
   std::vector<Progress> progress_;  // of each member of local_
 };
 

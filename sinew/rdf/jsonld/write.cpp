@@ -29,10 +29,16 @@ class Arranger {
     for (json::Value& item : value.items()) arrange(item);
     if (!value.is_object() || is_value_object(value)) return;
     const auto members = value.members();
-    std::stable_sort(members.begin(), members.end(), [&](const auto& a, const auto& b) {
-      const int rank_a = rank(a.name()), rank_b = rank(b.name());
-      return rank_a != rank_b ? rank_a < rank_b : sorted_ && a.name() < b.name();
-    });
+    const std::vector<json::Member> before(members.begin(), members.end());
+    auto next = members.begin();
+    for (int wanted = 0; wanted <= 3; ++wanted) {
+      const auto first = next;
+      next = std::copy_if(before.begin(), before.end(), next, [&](const json::Member& member) {
+        return rank(member.name()) == wanted;
+      });
+      if (!sorted_) continue;
+      std::sort(first, next, [](const auto& a, const auto& b) { return a.name() < b.name(); });
+    }
     value.members_were_moved();
     for (json::Member& member : value.members()) {
       if (member.name() == keyword::kId) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sinew/graph/store.h"
+#include "sinew/rdf/jsonld/load.h"
 #include "sinew/rdf/jsonld/processor.h"
 
 namespace sinew::jsonld {
@@ -73,6 +74,40 @@ TEST_F(Limits, TermsThatGrowExponentially) {
   const Problem problem = fault(text + "}}");
   EXPECT_EQ(problem.code, "loading document failed");
   EXPECT_NE(problem.what.find("1 GiB"), std::string::npos);
+}
+
+TEST_F(Limits, TermsThatDependOnEachOtherInALongChain) {
+  std::string text = "{\"@context\": {\"t0\": \"https://example.org/#\"";
+  for (int i = 100'000; i > 0; --i) text += fmt::format(", \"t{}:\": \"t{}:x\"", i, i - 1);
+  EXPECT_EQ(fault(text + "}}").what, "");  // each is looked up as a compact IRI
+  text = "{\"@context\": {";
+  for (int i = 100'000; i > 0; --i) text += fmt::format("\"t{}\": \"t{}:#\", ", i, i - 1);
+  const Problem problem = fault(text + "\"t0\": \"https://example.org/#\"}}");
+  EXPECT_EQ(problem.code, "context overflow");
+  EXPECT_NE(problem.what.find("chain of more than 500"), std::string::npos);
+}
+
+TEST_F(Limits, AModelThatIsWrongEverywhereIsReportedQuickly) {
+  std::string text = "{\"@context\": {\"a\": \"https://example.org/a\"";
+  for (int i = 0; i < 2000; ++i)
+    text += fmt::format(", \"term{}\": \"https://example.org/{}\"", i, i);
+  text += "}, \"@id\": \"https://example.org/n\"";
+  for (int i = 0; i < 50'000; ++i) text += fmt::format(", \"wrong{}\": 1", i);
+  graph::Terms terms;
+  Report report;
+  Loader(catalogue_)
+      .load(
+          text + "}", "model.json", terms, [](const graph::Quad&) {}, nullptr, report);
+  EXPECT_TRUE(report.has_errors());
+}
+
+TEST_F(Limits, FlatteningManyValuesTakesLinearTime) {
+  std::string text = "{\"https://example.org/p\": [0";
+  for (int i = 1; i < 100'000; ++i) text += fmt::format(", {}", i);
+  const json::Document document = json::read(text + "]}", "file.json");
+  Processor processor(catalogue_);
+  const json::Value flat = processor.flatten(document, "https://example.org/", {});
+  EXPECT_EQ(flat.items()[0].find("https://example.org/p")->items().size(), 100'000u);
 }
 
 TEST_F(Limits, AnObjectWithManyKeysTakesLinearTime) {
