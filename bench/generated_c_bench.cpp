@@ -12,6 +12,7 @@
 #include "pipeline.h"
 #include "sinew/backend/c_target.h"
 #include "sinew/backend/compile.h"
+#include "sinew/program/interface.h"
 
 namespace {
 

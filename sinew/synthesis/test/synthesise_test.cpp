@@ -62,8 +62,12 @@ TEST_F(SynthesiseTest, HandsOutForcesInJointOrderWithTheUnitOfTheJoint) {
   EXPECT_THAT(names(rnea, true),
               ElementsAre("force.one", "force.two", "force.three", "force.four"));
   for (const Block& block : rnea.blocks) {
-    if (block.name == "force.one") EXPECT_EQ(block.unit, "N-M");
-    if (block.name == "force.three") EXPECT_EQ(block.unit, "N");
+    if (block.name == "force.one") {
+      EXPECT_EQ(block.unit, "N-M");
+    }
+    if (block.name == "force.three") {
+      EXPECT_EQ(block.unit, "N");
+    }
   }
 }
 
@@ -156,8 +160,11 @@ TEST_F(SynthesiseTest, MakesZeroEntriesOfTheMassMatrixForJointsOnDifferentBranch
   // one, two, three: 6 entries; four with one and itself: 2 more.
   EXPECT_EQ(count(crba, "force-from-wrench-revolute") + count(crba, "force-from-wrench-prismatic"),
             8u);
-  for (const Block& block : crba.blocks)
-    if (block.name == "mass-matrix") EXPECT_EQ(block.size, 16u);
+  for (const Block& block : crba.blocks) {
+    if (block.name == "mass-matrix") {
+      EXPECT_EQ(block.size, 16u);
+    }
+  }
 }
 
 TEST_F(SynthesiseTest, WorksAsASweepConfigurationSays) {

@@ -73,7 +73,9 @@ TEST(Equivalence, RandomQueriesMeanWhatTheStandardSays) {
     ASSERT_EQ(found, "");
   }
   // Most queries must have solutions, or nothing is tested.
-  if (!from) EXPECT_GT(with_rows, count / 4);
+  if (!from) {
+    EXPECT_GT(with_rows, count / 4);
+  }
 }
 
 }  // namespace
