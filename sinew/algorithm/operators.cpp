@@ -217,6 +217,34 @@ constexpr Row kRows[] = {
      "difference.wrt = in1.wrt; difference.seen = in1.seen",
      "u = tau_1 - tau_2"},
 
+    // A floating base: the joint between the world and it has six degrees of freedom.
+    {"position-to-pose-floating", SINEW_OWN "position-to-pose-floating",
+     "position:floating-position -> pose:pose", "pose.of = position.of; pose.wrt = position.wrt",
+     "X = [R(quaternion) p]"},
+    {"velocity-to-twist-floating", SINEW_OWN "velocity-to-twist-floating",
+     "velocity:floating-velocity -> twist:velocity-twist",
+     "twist.of = velocity.of; twist.wrt = velocity.wrt; twist.at = velocity.seen", "V = qd"},
+    {"acceleration-to-twist-floating", SINEW_OWN "acceleration-to-twist-floating",
+     "acceleration:floating-acceleration velocity-twist:velocity-twist -> "
+     "twist:acceleration-twist",
+     "velocity-twist.of = acceleration.of; velocity-twist.wrt = acceleration.wrt; "
+     "velocity-twist.at = acceleration.seen; twist.of = acceleration.of; "
+     "twist.wrt = acceleration.wrt; twist.at = acceleration.seen",
+     "A = qdd + (0, w x v)"},
+    {"force-from-wrench-floating", SINEW_OWN "force-from-wrench-floating",
+     "wrench:wrench -> force:floating-force", "wrench.of = force.of; wrench.at = force.seen",
+     "f = W"},
+    {"subtract-floating-force", SINEW_OWN "subtract-floating-force",
+     "in1:floating-force in2:floating-force -> difference:floating-force",
+     "in2.of = in1.of; in2.wrt = in1.wrt; in2.seen = in1.seen; difference.of = in1.of; "
+     "difference.wrt = in1.wrt; difference.seen = in1.seen",
+     "u = f_1 - f_2"},
+    {"floating-acceleration-from-force", SINEW_OWN "floating-acceleration-from-force",
+     "inertia:articulated-body-inertia force:floating-force -> acceleration:floating-acceleration",
+     "inertia.of = force.of; inertia.at = force.seen; acceleration.of = force.of; "
+     "acceleration.wrt = force.wrt; acceleration.seen = force.seen",
+     "qdd = I^-1 u"},
+
     // The column of a geometric Jacobian: the twist of a point for one unit of joint velocity.
     {"jacobian-column-revolute", SINEW_OWN "jacobian-column-revolute",
      "joint-pose:pose point-pose:pose -> column:jacobian-column",

@@ -26,6 +26,11 @@ constexpr std::array kQuantities = {
     Quantity{"joint-velocity", 1, "RAD-PER-SEC", "M-PER-SEC", kJoint},
     Quantity{"joint-acceleration", 1, "RAD-PER-SEC2", "M-PER-SEC2", kJoint},
     Quantity{"joint-force", 1, "N-M", "N", kJoint},
+    // The joint between the world and a floating base; seen from the base.
+    Quantity{"floating-position", 7, "M UNITLESS", "", kJoint},
+    Quantity{"floating-velocity", 6, "RAD-PER-SEC M-PER-SEC", "", kJoint},
+    Quantity{"floating-acceleration", 6, "RAD-PER-SEC2 M-PER-SEC2", "", kJoint},
+    Quantity{"floating-force", 6, "N-M N", "", kJoint},
     // Of a revolute joint: rotation, and metres for each radian; of a prismatic one the other
     // units.
     Quantity{"jacobian-column", 6, "UNITLESS M", "PER-M UNITLESS", kTwist},

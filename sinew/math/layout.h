@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "sinew/math/articulated_inertia.h"
+#include "sinew/math/floating.h"
 #include "sinew/math/inertia.h"
 #include "sinew/math/pose.h"
 #include "sinew/math/twist.h"
@@ -83,6 +84,19 @@ struct Layout<RigidBodyInertia<S>> {
     at[1] = I.first_moment.x, at[2] = I.first_moment.y, at[3] = I.first_moment.z;
     at[4] = I.rotational.xx, at[5] = I.rotational.xy, at[6] = I.rotational.xz;
     at[7] = I.rotational.yy, at[8] = I.rotational.yz, at[9] = I.rotational.zz;
+  }
+};
+
+// x y z, then the quaternion x y z w.
+template <typename S>
+struct Layout<FloatingPosition<S>> {
+  static constexpr std::uint32_t kSize = 7;
+  static FloatingPosition<S> load(const S* at) {
+    return {{at[0], at[1], at[2]}, {at[3], at[4], at[5]}, at[6]};
+  }
+  static void store(const FloatingPosition<S>& q, S* at) {
+    at[0] = q.p.x, at[1] = q.p.y, at[2] = q.p.z;
+    at[3] = q.v.x, at[4] = q.v.y, at[5] = q.v.z, at[6] = q.w;
   }
 };
 

@@ -3,6 +3,7 @@
 #include "sinew/math/sinew_math.h"
 
 #include "sinew/math/articulated_inertia.h"
+#include "sinew/math/floating.h"
 #include "sinew/math/inertia.h"
 #include "sinew/math/jacobian.h"
 #include "sinew/math/joint.h"
@@ -185,4 +186,26 @@ void sinew_mass_matrix_from_entries(const double* const entries[], int count, do
 void sinew_jacobian_from_columns(const double* const columns[], int count, double* J) {
   for (int column = 0; column < count; ++column)
     for (int row = 0; row < 6; ++row) J[row * count + column] = columns[column][row];
+}
+
+void sinew_position_to_pose_floating(const double* q, double* X) {
+  store(floating_pose(load<FloatingPosition>(q)), X);
+}
+
+void sinew_velocity_to_twist_floating(const double* qd, double* V) {
+  store(load<VelocityTwist>(qd), V);
+}
+
+void sinew_acceleration_to_twist_floating(const double* qdd, const double* V, double* A) {
+  store(floating_acceleration(load<AccelerationTwist>(qdd), load<VelocityTwist>(V)), A);
+}
+
+void sinew_force_from_wrench_floating(const double* W, double* f) { store(load<Wrench>(W), f); }
+
+void sinew_subtract_floating_force(const double* a, const double* b, double* c) {
+  for (int i = 0; i < 6; ++i) c[i] = a[i] - b[i];
+}
+
+void sinew_floating_acceleration_from_force(const double* I, const double* u, double* qdd) {
+  store(solve(load<ArticulatedInertia>(I), load<Wrench>(u)), qdd);
 }

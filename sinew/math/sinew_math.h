@@ -96,6 +96,16 @@ void sinew_joint_acceleration_from_force(const double u[1], const double U[6], c
                                          const double A[6], double qdd[1]);
 void sinew_subtract_joint_force(const double a[1], const double b[1], double c[1]);
 
+/* A floating base: position x y z and unit quaternion x y z w; velocity seen from the base;
+ * acceleration the derivative of those numbers; force the wrench on the base, seen from it. */
+void sinew_position_to_pose_floating(const double q[7], double X[12]);
+void sinew_velocity_to_twist_floating(const double qd[6], double V[6]);
+void sinew_acceleration_to_twist_floating(const double qdd[6], const double V[6], double A[6]);
+void sinew_force_from_wrench_floating(const double W[6], double f[6]);
+void sinew_subtract_floating_force(const double a[6], const double b[6], double c[6]);
+/* qdd = I^-1 u for an articulated inertia: J (6), H (9), M (6). */
+void sinew_floating_acceleration_from_force(const double I[21], const double u[6], double qdd[6]);
+
 /* The twist of the origin of B for one unit of velocity of a joint about, or along, z of C. */
 void sinew_jacobian_column_revolute(const double X_RC[12], const double X_RB[12], double J[6]);
 void sinew_jacobian_column_prismatic(const double X_RC[12], const double X_RB[12], double J[6]);

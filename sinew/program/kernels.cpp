@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sinew/math/articulated_inertia.h"
+#include "sinew/math/floating.h"
 #include "sinew/math/inertia.h"
 #include "sinew/math/jacobian.h"
 #include "sinew/math/joint.h"
@@ -173,6 +174,24 @@ std::vector<Kernel> make_kernels() {
           []<typename S>(const S& u, const Wrench<S>& U, const S& D,
                          const AccelerationTwist<S>& A) { return joint_acceleration(u, U, D, A); }),
       row("subtract-joint-force", []<typename S>(const S& a, const S& b) { return S(a - b); }),
+
+      // A floating base.
+      row("position-to-pose-floating",
+          []<typename S>(const FloatingPosition<S>& q) { return floating_pose(q); }),
+      row("velocity-to-twist-floating", []<typename S>(const VelocityTwist<S>& V) { return V; }),
+      row("acceleration-to-twist-floating",
+          []<typename S>(const AccelerationTwist<S>& derivative, const VelocityTwist<S>& V) {
+            return floating_acceleration(derivative, V);
+          }),
+      row("force-from-wrench-floating", []<typename S>(const Wrench<S>& W) { return W; }),
+      row("subtract-floating-force",
+          []<typename S>(const Wrench<S>& a, const Wrench<S>& b) {
+            return Wrench<S>{a.moment - b.moment, a.force - b.force};
+          }),
+      row("floating-acceleration-from-force",
+          []<typename S>(const ArticulatedInertia<S>& I, const Wrench<S>& u) {
+            return solve(I, u);
+          }),
 
       row("jacobian-column-revolute",
           []<typename S>(const Pose<S>& X_RC, const Pose<S>& X_RB) {

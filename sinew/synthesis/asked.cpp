@@ -6,15 +6,16 @@ namespace sinew::synthesis {
 namespace {
 
 constexpr AskedQuantity kAsked[] = {
-    {"pose", Element::kFrame, "frame-pose", "pose", false},
-    {"twist", Element::kFrame, "twist", "twist", false},
-    {"acceleration-twist", Element::kFrame, "acceleration-twist", "acceleration-twist", false},
-    {"joint-force", Element::kJoint, "force", "force", true},
-    {"bias-force", Element::kJoint, "bias-force", "bias-force", true},
-    {"joint-acceleration", Element::kJoint, "acceleration", "acceleration", true},
-    {"mass-matrix", Element::kRobot, "mass-matrix", "mass-matrix", true},
-    {"jacobian", Element::kFrame, "jacobian", "jacobian", false},
-    {"gravity-force", Element::kJoint, "gravity-force", "gravity-force", true},
+    {"pose", Element::kFrame, "frame-pose", "pose", true, false},
+    {"twist", Element::kFrame, "twist", "twist", true, false},
+    {"acceleration-twist", Element::kFrame, "acceleration-twist", "acceleration-twist", true,
+     false},
+    {"joint-force", Element::kJoint, "force", "force", true, true},
+    {"bias-force", Element::kJoint, "bias-force", "bias-force", true, true},
+    {"joint-acceleration", Element::kJoint, "acceleration", "acceleration", true, true},
+    {"mass-matrix", Element::kRobot, "mass-matrix", "mass-matrix", true, true},
+    {"jacobian", Element::kFrame, "jacobian", "jacobian", true, false},
+    {"gravity-force", Element::kJoint, "gravity-force", "gravity-force", true, true},
 };
 
 constexpr GivenQuantity kGiven[] = {

@@ -15,6 +15,7 @@ struct AskedQuantity {
   Element element;
   std::string_view needs;  // what the planner must see to
   std::string_view slot;   // where the data block then is; also the output's name before the dot
+  bool regroups;           // the same after inertias have been regrouped (regroup.h)
   bool dynamic;            // speaks of masses: the whole robot matters, not the way to a tip alone
 };
 

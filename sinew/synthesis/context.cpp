@@ -85,6 +85,12 @@ BlockIndex Context::make(const algorithm::BlockSpec& spec) {
   return made;
 }
 
+std::string_view Context::label(Id joint) const {
+  for (const RobotJoint& one : robot.joints)
+    if (one.joint == joint) return one.label;
+  return {};
+}
+
 algorithm::Cause Context::cause(Id about) const {
   graph::Terms& terms = builder.terms();
   return {step ? terms.iri(std::string(algorithm::kStepNamespace) + step->name) : Id{}, about};

@@ -55,6 +55,8 @@ struct Context {
   std::array<double, 3> gravity = {};  // [m/s^2], seen from the root; zero when it does not matter
   // The body frames that matter, where only the way to some tips does; empty: all.
   std::unordered_set<Id> scope = {};
+  // Of each body: mass, first moment, rotational inertia; as stated, or regrouped (regroup.h).
+  std::unordered_map<Id, std::array<double, 10>> inertias = {};
   Blackboard board = {};
   const Step* step = nullptr;  // whose pass is running
 
@@ -69,6 +71,9 @@ struct Context {
 
   void closure_of_many(std::string_view operation, std::span<const BlockIndex> many,
                        std::initializer_list<BlockIndex> others, Id about);
+
+  // The part of a joint's data blocks' names after the dot, where it is not the joint's name.
+  std::string_view label(Id joint) const;
 
   algorithm::Cause cause(Id about) const;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sinew/synthesis/asked.h"
+#include "sinew/synthesis/joint_edge.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -69,18 +70,15 @@ void make_gravity(Context& context) {
 }  // namespace
 
 algorithm::BlockSpec joint_quantity(std::string_view slot, const RobotJoint& joint) {
-  const std::string_view quantity = slot == "position"       ? "joint-position"
-                                    : slot == "velocity"     ? "joint-velocity"
-                                    : slot == "acceleration" ? "joint-acceleration"
-                                                             : "joint-force";
   const bool pose = slot == "position";
   return {.slot = slot,
           .represents = joint.joint,
-          .quantity = quantity,
+          .quantity = joint_quantity_name(joint.kind, slot),
           .of = pose ? joint.frame : joint.successor,
           .wrt = pose ? joint.joint_frame : joint.predecessor,
           .seen_by = joint.frame,
-          .prismatic = joint.kind == "prismatic"};
+          .prismatic = joint.kind == "prismatic",
+          .label = joint.label};
 }
 
 std::vector<std::string> given_slots(const Query& query) {

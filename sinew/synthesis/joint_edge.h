@@ -41,16 +41,16 @@ inline constexpr std::string_view kIsNotRoot =
     SINEW_TREE_PREFIX "ASK { ?joint tree:successor-frame ?node }";
 inline constexpr std::string_view kIsLeaf =
     SINEW_TREE_PREFIX "ASK { FILTER NOT EXISTS { ?joint tree:predecessor-frame ?node } }";
-inline constexpr std::string_view kHasInertia =
-    SINEW_TREE_PREFIX "ASK { ?body tree:frame ?node ; tree:inertia ?inertia }";
 inline constexpr std::string_view kHasNoInertia = SINEW_TREE_PREFIX
     "ASK { FILTER NOT EXISTS { ?body tree:frame ?node ; tree:inertia ?inertia } }";
 
 // The body whose frame ?node is, and what is known of it.
 inline constexpr std::string_view kBodyOfNode =
     SINEW_TREE_PREFIX "SELECT ?body WHERE { ?body tree:frame ?node }";
-inline constexpr std::string_view kInertiaOfNode = SINEW_TREE_PREFIX
-    "SELECT ?body ?inertia WHERE { ?body tree:frame ?node ; tree:inertia ?inertia }";
+
+// "joint-position", or "floating-position" of a floating base; likewise velocity, acceleration,
+// force.
+std::string_view joint_quantity_name(std::string_view kind, std::string_view what);
 
 // A row of kAcrossJoints.
 struct JointEdge {
@@ -61,6 +61,11 @@ struct JointEdge {
   Id placement;               // coordinate node: pose of F_J in F_P
   Id predecessor, successor;  // bodies
   std::string kind;           // "revolute", "prismatic", "floating"
+  std::string_view label;     // see Context::label
+
+  bool floats() const { return kind == "floating"; }
+  // The data block of the joint's "position", "velocity", "acceleration" or "force" in some slot.
+  algorithm::BlockSpec coordinate(std::string_view slot, std::string_view what) const;
 };
 
 }  // namespace sinew::synthesis

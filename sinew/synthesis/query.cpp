@@ -16,6 +16,7 @@ std::string canonical_text(const Query& query) {
     text += fmt::format(" gravity {} {} {}", (*query.gravity)[0], (*query.gravity)[1],
                         (*query.gravity)[2]);
   if (query.floating) text += " floating";
+  if (!query.regroup) text += " stated inertias";
   if (!query.sweeps.empty()) text += " sweeps " + query.sweeps;
   return text;
 }

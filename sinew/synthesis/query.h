@@ -39,7 +39,9 @@ struct Query {
   // The gravity vector [m/s^2] seen from the base; overrides the model's.
   std::optional<std::array<double, 3>> gravity;
   bool floating = false;  // the base moves freely: its pose, twist and acceleration come first
-  std::string sweeps;     // name of a hand-written sweep configuration; empty: planned
+  // Inertias may be regrouped for speed, where nothing that is asked could tell (regroup.h).
+  bool regroup = true;
+  std::string sweeps;  // name of a hand-written sweep configuration; empty: planned
 };
 
 // The same facts in one line, always in the same words: what the algorithm's IRI is derived from.

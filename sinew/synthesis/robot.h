@@ -20,10 +20,11 @@ struct RobotJoint {
   Id frame;                   // the successor's
   Id predecessor, successor;  // bodies
   Id parent_frame;            // the predecessor's frame
+  std::string label = {};     // names its data blocks; empty: its own name does
 };
 
 struct Robot {
-  Id root_frame, root_body;
+  Id root_frame, root_body;        // of a floating robot: the world's
   Id base_acceleration;            // coordinate node; null when the model states no gravity
   std::vector<RobotJoint> joints;  // by tree:index
 };

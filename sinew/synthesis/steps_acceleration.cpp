@@ -24,10 +24,14 @@ void configure_relative(Context& context, const Visit& visit) {
 
 void compute_relative(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
-  context.closure("acceleration-to-twist-" + edge.kind,
-                  {context.block("acceleration", edge.joint),
-                   context.block("relative-acceleration", edge.joint)},
-                  edge.joint);
+  const BlockIndex given = context.block("acceleration", edge.joint);
+  const BlockIndex relative = context.block("relative-acceleration", edge.joint);
+  const std::string operation = "acceleration-to-twist-" + edge.kind;
+  if (edge.floats())
+    context.closure(operation, {given, context.block("relative-twist", edge.joint), relative},
+                    edge.joint);
+  else
+    context.closure(operation, {given, relative}, edge.joint);
 }
 
 void configure_root(Motion motion, Context& context, const Visit& visit) {
@@ -62,6 +66,20 @@ void configure_body(Motion motion, Context& context, const Visit& visit) {
   acceleration("acceleration-across-joint", edge.joint, edge.predecessor, edge.child);
   acceleration("body-acceleration", edge.child, edge.successor, edge.child);
   if (motion == Motion::kFull) return;
+  if (edge.floats() && motion == Motion::kBias) {
+    algorithm::BlockSpec still = edge.coordinate("no-acceleration", "acceleration");
+    still.role = Role::kConstant;
+    still.value = kZero;
+    context.make(still);
+    context.make({.slot = "bias-relative-acceleration",
+                  .represents = edge.joint,
+                  .quantity = "acceleration-twist",
+                  .of = edge.successor,
+                  .wrt = edge.predecessor,
+                  .reference = edge.child,
+                  .seen_by = edge.child});
+    return;
+  }
   context.make({.slot = "no-relative-acceleration",
                 .represents = edge.joint,
                 .quantity = "acceleration-twist",
@@ -71,6 +89,20 @@ void configure_body(Motion motion, Context& context, const Visit& visit) {
                 .seen_by = edge.child,
                 .role = Role::kConstant,
                 .value = kZero});
+}
+
+// Of the joint alone. The velocity of a floating base has coordinates in its own frame: while these
+// do not change, its origin may still accelerate.
+BlockIndex relative_acceleration(Motion motion, Context& context, const JointEdge& edge) {
+  if (motion == Motion::kFull) return context.block("relative-acceleration", edge.joint);
+  if (motion == Motion::kRest || !edge.floats())
+    return context.block("no-relative-acceleration", edge.joint);
+  const BlockIndex bias = context.block("bias-relative-acceleration", edge.joint);
+  context.closure("acceleration-to-twist-floating",
+                  {context.block("no-acceleration", edge.joint),
+                   context.block("relative-twist", edge.joint), bias},
+                  edge.joint);
+  return bias;
 }
 
 void compute_body(Motion motion, Context& context, const Visit& visit) {
@@ -93,8 +125,7 @@ void compute_body(Motion motion, Context& context, const Visit& visit) {
                      context.block("relative-twist", edge.joint), at, across},
                     edge.joint);
   }
-  const BlockIndex relative = context.block(
-      motion == Motion::kFull ? "relative-acceleration" : "no-relative-acceleration", edge.joint);
+  const BlockIndex relative = relative_acceleration(motion, context, edge);
   context.closure(
       "add-acceleration-twist",
       {across, relative, context.block(slot_of(motion, "body-acceleration"), edge.child)},
@@ -108,8 +139,8 @@ Step joint_acceleration_step() {
           .purpose = "the relative acceleration across each joint follows from the joint's",
           .direction = Direction::kOutward,
           .expansion = std::string(kAcrossJoints),
-          .needs = {"acceleration"},
-          .may_use = {"relative-twist"},
+          .needs = {"acceleration", "relative-twist"},
+          .may_use = {},
           .gives = {"relative-acceleration"},
           .visitors = {{Where::kEdge, {}, {}, configure_relative, compute_relative}}};
 }

@@ -13,6 +13,8 @@ using algorithm::Role;
 constexpr double kZero[6] = {};
 
 void configure_inertia(Context& context, const Visit& visit) {
+  const auto found = context.inertias.find(visit["body"]);
+  if (found == context.inertias.end()) return;
   context.make({.slot = "inertia",
                 .represents = visit["body"],
                 .quantity = "rigid-body-inertia",
@@ -20,7 +22,7 @@ void configure_inertia(Context& context, const Visit& visit) {
                 .reference = visit.node,
                 .seen_by = visit.node,
                 .role = Role::kConstant,
-                .value = context.numbers(visit["inertia"])});
+                .value = found->second});
 }
 
 algorithm::BlockSpec wrench(std::string_view slot, Id represents, Id of, Id frame) {
@@ -32,20 +34,19 @@ algorithm::BlockSpec wrench(std::string_view slot, Id represents, Id of, Id fram
           .seen_by = frame};
 }
 
+// A body without inertia needs none.
 void configure_own(Motion motion, Context& context, const Visit& visit) {
-  context.make(wrench(slot_of(motion, "own-wrench"), visit.node, visit["body"], visit.node));
-}
-
-// A body without mass needs none.
-void configure_none(Motion motion, Context& context, const Visit& visit) {
   const std::string slot = slot_of(motion, "own-wrench");
   algorithm::BlockSpec spec = wrench(slot, visit.node, visit["body"], visit.node);
-  spec.role = Role::kConstant;
-  spec.value = kZero;
+  if (!context.has("inertia", visit["body"])) {
+    spec.role = Role::kConstant;
+    spec.value = kZero;
+  }
   context.make(spec);
 }
 
 void compute_own(Motion motion, Context& context, const Visit& visit) {
+  if (!context.has("inertia", visit["body"])) return;
   const BlockIndex inertia = context.block("inertia", visit["body"]);
   const BlockIndex acceleration = context.block(slot_of(motion, "body-acceleration"), visit.node);
   const BlockIndex own = context.block(slot_of(motion, "own-wrench"), visit.node);
@@ -96,13 +97,8 @@ void compute_sum(Motion motion, Context& context, const Visit& visit) {
 
 void configure_force(Motion motion, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
-  context.make({.slot = slot_of(motion, "force"),
-                .represents = edge.joint,
-                .quantity = "joint-force",
-                .of = edge.successor,
-                .wrt = edge.predecessor,
-                .seen_by = edge.child,
-                .prismatic = edge.kind == "prismatic"});
+  const std::string slot = slot_of(motion, "force");
+  context.make(edge.coordinate(slot, "force"));
 }
 
 void compute_force(Motion motion, Context& context, const Visit& visit) {
@@ -123,7 +119,7 @@ Step inertia_step() {
           .needs = {},
           .may_use = {},
           .gives = {"inertia"},
-          .visitors = {{Where::kNode, {}, std::string(kInertiaOfNode), configure_inertia, {}}}};
+          .visitors = {{Where::kNode, {}, std::string(kBodyOfNode), configure_inertia, {}}}};
 }
 
 Step own_wrench_step(Motion motion) {
@@ -137,15 +133,10 @@ Step own_wrench_step(Motion motion) {
           .may_use = {},
           .gives = {slot_of(motion, "own-wrench")},
           .visitors = {{Where::kNode,
-                        {std::string(kIsNotRoot), std::string(kHasInertia)},
+                        {std::string(kIsNotRoot)},
                         std::string(kBodyOfNode),
                         std::bind_front(configure_own, motion),
-                        std::bind_front(compute_own, motion)},
-                       {Where::kNode,
-                        {std::string(kIsNotRoot), std::string(kHasNoInertia)},
-                        std::string(kBodyOfNode),
-                        std::bind_front(configure_none, motion),
-                        {}}}};
+                        std::bind_front(compute_own, motion)}}};
 }
 
 Step wrench_step(Motion motion) {

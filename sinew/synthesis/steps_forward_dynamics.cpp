@@ -25,23 +25,21 @@ BlockSpec at(std::string_view slot, std::string_view quantity, Id represents, Id
 }
 
 void configure_own(Context& context, const Visit& visit) {
-  context.make(at("own-articulated-inertia", "articulated-body-inertia", visit.node, visit["body"],
-                  visit.node));
+  BlockSpec spec = at("own-articulated-inertia", "articulated-body-inertia", visit.node,
+                      visit["body"], visit.node);
+  if (!context.has("inertia", visit["body"])) {
+    spec.role = Role::kConstant;
+    spec.value = kZero;
+  }
+  context.make(spec);
 }
 
 void compute_own(Context& context, const Visit& visit) {
+  if (!context.has("inertia", visit["body"])) return;
   context.closure("articulated-from-rigid-body-inertia",
                   {context.block("inertia", visit["body"]),
                    context.block("own-articulated-inertia", visit.node)},
                   visit["body"]);
-}
-
-void configure_none(Context& context, const Visit& visit) {
-  BlockSpec spec = at("own-articulated-inertia", "articulated-body-inertia", visit.node,
-                      visit["body"], visit.node);
-  spec.role = Role::kConstant;
-  spec.value = kZero;
-  context.make(spec);
 }
 
 // A force on a joint that moves nothing has no finite acceleration.
@@ -66,18 +64,14 @@ BlockIndex inertia_so_far(const Context& context, Id frame) {
 
 void configure_inertia(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
+  if (edge.floats()) return;  // six columns at once: see compute_result
   context.make(at("unit-wrench", "wrench", edge.joint, edge.successor, edge.child));
-  context.make({.slot = "unit-force",
-                .represents = edge.joint,
-                .quantity = "joint-force",
-                .of = edge.successor,
-                .wrt = edge.predecessor,
-                .seen_by = edge.child,
-                .prismatic = edge.kind == "prismatic"});
+  context.make(edge.coordinate("unit-force", "force"));
 }
 
 void compute_inertia(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
+  if (edge.floats()) return;
   const BlockIndex unit = context.block("unit-wrench", edge.joint);
   context.closure("wrench-of-" + edge.kind + "-from-articulated-body-inertia",
                   {inertia_so_far(context, edge.child), unit}, edge.joint);
@@ -135,26 +129,20 @@ void configure_drive(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   drive_so_far(context, edge.child, edge.successor);
   for (const std::string_view slot : {"free-force", "force-behind", "drive-force"})
-    context.make({.slot = slot,
-                  .represents = edge.joint,
-                  .quantity = "joint-force",
-                  .of = edge.successor,
-                  .wrt = edge.predecessor,
-                  .seen_by = edge.child,
-                  .prismatic = edge.kind == "prismatic"});
+    context.make(edge.coordinate(slot, "force"));
 }
 
 // u = (tau - h) - S' W
 void compute_drive(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
+  const std::string subtract = edge.floats() ? "subtract-floating-force" : "subtract-joint-force";
   const auto block = [&](std::string_view slot) { return context.block(slot, edge.joint); };
-  context.closure("subtract-joint-force",
-                  {block("force"), block("bias-force"), block("free-force")}, edge.joint);
+  context.closure(subtract, {block("force"), block("bias-force"), block("free-force")}, edge.joint);
   context.closure("force-from-wrench-" + edge.kind,
                   {drive_so_far(context, edge.child, edge.successor), block("force-behind")},
                   edge.joint);
-  context.closure("subtract-joint-force",
-                  {block("free-force"), block("force-behind"), block("drive-force")}, edge.joint);
+  context.closure(subtract, {block("free-force"), block("force-behind"), block("drive-force")},
+                  edge.joint);
 }
 
 void configure_drive_on(Context& context, const Visit& visit) {
@@ -214,13 +202,14 @@ void configure_result(Context& context, const Visit& visit) {
        edge.child);
   make("drive-relative-acceleration", edge.joint, edge.successor, edge.predecessor, edge.child);
   make("drive-acceleration", edge.child, edge.successor, context.reference, edge.child);
-  context.make({.slot = "acceleration",
-                .represents = edge.joint,
-                .quantity = "joint-acceleration",
-                .of = edge.successor,
-                .wrt = edge.predecessor,
-                .seen_by = edge.child,
-                .prismatic = edge.kind == "prismatic"});
+  context.make(edge.coordinate("acceleration", "acceleration"));
+  if (!edge.floats()) return;
+  BlockSpec still =
+      at("no-relative-twist", "velocity-twist", edge.joint, edge.successor, edge.child);
+  still.wrt = edge.predecessor;
+  still.role = Role::kConstant;
+  still.value = std::span(kZero).first(6);
+  context.make(still);
 }
 
 void compute_result(Context& context, const Visit& visit) {
@@ -235,12 +224,24 @@ void compute_result(Context& context, const Visit& visit) {
                   {block("pose-across-joint"), block("drive-acceleration-at-joint"),
                    block("drive-acceleration-across-joint")},
                   edge.joint);
-  context.closure("joint-acceleration-from-force",
-                  {block("drive-force"), block("unit-wrench"), block("unit-force"),
-                   block("drive-acceleration-across-joint"), block("acceleration")},
-                  edge.joint);
-  context.closure("acceleration-to-twist-" + edge.kind,
-                  {block("acceleration"), block("drive-relative-acceleration")}, edge.joint);
+  if (edge.floats()) {
+    // The world rests, so only the base's own inertia and drive matter.
+    context.closure(
+        "floating-acceleration-from-force",
+        {inertia_so_far(context, edge.child), block("drive-force"), block("acceleration")},
+        edge.joint);
+    context.closure(
+        "acceleration-to-twist-floating",
+        {block("acceleration"), block("no-relative-twist"), block("drive-relative-acceleration")},
+        edge.joint);
+  } else {
+    context.closure("joint-acceleration-from-force",
+                    {block("drive-force"), block("unit-wrench"), block("unit-force"),
+                     block("drive-acceleration-across-joint"), block("acceleration")},
+                    edge.joint);
+    context.closure("acceleration-to-twist-" + edge.kind,
+                    {block("acceleration"), block("drive-relative-acceleration")}, edge.joint);
+  }
   context.closure("add-acceleration-twist",
                   {block("drive-acceleration-across-joint"), block("drive-relative-acceleration"),
                    context.block("drive-acceleration", edge.child)},
@@ -258,14 +259,12 @@ Step own_articulated_inertia_step() {
           .needs = {"inertia"},
           .may_use = {},
           .gives = {"own-articulated-inertia"},
-          .visitors = {
-              {Where::kNode, {moves, std::string(kHasInertia)}, body, configure_own, compute_own},
-              {Where::kNode, {moves, std::string(kHasNoInertia)}, body, configure_none, {}},
-              {Where::kNode,
-               {moves, std::string(kHasNoInertia), std::string(kIsLeaf)},
-               body,
-               refuse_weightless,
-               {}}}};
+          .visitors = {{Where::kNode, {moves}, body, configure_own, compute_own},
+                       {Where::kNode,
+                        {moves, std::string(kHasNoInertia), std::string(kIsLeaf)},
+                        body,
+                        refuse_weightless,
+                        {}}}};
 }
 
 Step articulated_inertia_step() {

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "sinew/base/error.h"
 #include "sinew/synthesis/asked.h"
 #include "sinew/synthesis/context.h"
 #include "sinew/synthesis/drivers.h"
+#include "sinew/synthesis/floating_base.h"
 #include "sinew/synthesis/plan.h"
 #include "sinew/synthesis/read_query.h"
+#include "sinew/synthesis/regroup.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -26,6 +29,7 @@ struct Resolved {
   std::vector<Wanted> wanted;
   std::vector<Wish> wishes;
   bool dynamic = false;
+  bool regroups = true;
 };
 
 std::string text(const graph::View& view, Id id) { return std::string(view.terms().text(id)); }
@@ -92,6 +96,7 @@ Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robo
       continue;
     }
     resolved.dynamic |= row->dynamic;
+    resolved.regroups &= row->regroups;
     resolved.wishes.push_back({std::string(row->needs), asked.quantity});
     try {
       for (const Id element : elements(store, view, robot, query, asked, row->element))
@@ -177,13 +182,26 @@ void hand_out(Context& context, const Resolved& resolved) {
     context.builder.output(context.block(wanted.quantity->slot, wanted.element));
 }
 
+// The same robot from the world; its base's name stands for the six degrees of freedom of the base.
+Robot read_floating_robot(graph::Store& store, const graph::View& view, const Robot& fixed) {
+  Robot robot = read_robot(store, view);
+  robot.base_acceleration = fixed.base_acceleration;
+  robot.joints.front().label = algorithm::short_name(view.terms().text(fixed.root_body));
+  return robot;
+}
+
 }  // namespace
 
 Synthesis synthesise(graph::Store& store, const Query& query) {
   graph::Transaction transaction = store.begin();
   const graph::View view = transaction.view();
-  const Robot robot = read_robot(store, view);
+  Robot robot = read_robot(store, view);
   check_base(store, view, robot, query);
+  std::optional<FloatingBase> floating;
+  if (query.floating) {
+    floating.emplace(store, transaction, robot.root_body, robot.root_frame);
+    robot = read_floating_robot(store, view, robot);
+  }
 
   Report report;
   const Resolved resolved = resolve(store, view, robot, query, report);
@@ -209,6 +227,8 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
                                 {robot.root_body})
                 : robot.root_body};
   if (falls) context.gravity = gravity(context, result.notes);
+  context.inertias = stated_inertias(context);
+  if (query.regroup && resolved.regroups) regroup(context, context.inertias);
   write_asks(store, transaction, result.algorithm, resolved);
   set_scope(context, resolved);
   make_drivers(context, report);
@@ -217,6 +237,7 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
   result.counts = run_sweeps(context, plan.sweeps);
   hand_out(context, resolved);
   builder.finish();
+  floating.reset();
   transaction.commit();
   result.why = plan.why;
   return result;

@@ -1,0 +1,25 @@
+// Weaving: an algorithm rewritten by a SPARQL update, for loggers, monitors, further outputs, other
+// operators.
+//
+// The update sees the algorithm's triples, and nothing else, as its default graph. The result must
+// be an algorithm as good as one that was synthesised: it is read and checked as a whole (check.h)
+// before it takes the old one's place. If it is not, or the update fails, the old one stays as it
+// was.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "sinew/graph/store.h"
+
+namespace sinew::algorithm {
+
+struct WeaveCounts {
+  std::size_t added = 0, removed = 0;  // triples
+};
+
+// `name` is that of the update, for messages. Throws Error.
+WeaveCounts weave(graph::Store& store, graph::Id algorithm, std::string_view update,
+                  const std::string& name);
+
+}  // namespace sinew::algorithm
