@@ -22,6 +22,7 @@ int run_import(Arguments arguments);
 int run_query(Arguments arguments);
 int run_update(Arguments arguments);
 int run_synth(Arguments arguments);
+int run_weave(Arguments arguments);
 int run_stats(Arguments arguments);
 int run_generate(Arguments arguments);
 int run_run(Arguments arguments);

@@ -24,6 +24,8 @@ constexpr Command kCommands[] = {
     {"query", "MODEL… (-e TEXT | -q FILE)", "answer a SPARQL query", run_query},
     {"update", "MODEL… (-e TEXT | -q FILE)", "apply a SPARQL update", run_update},
     {"synth", "MODEL… --solver NAME -o ALGO.jsonld", "synthesise an algorithm model", run_synth},
+    {"weave", "ALGO.jsonld UPDATE.rq -o ALGO2.jsonld", "rewrite an algorithm, re-validated",
+     run_weave},
     {"stats", "ALGO.jsonld", "data, operators, operations, memory", run_stats},
     {"generate", "MODEL… --solver NAME -o DIR", "write source code", run_generate},
     {"run", "MODEL… --solver NAME --input ROWS.csv", "evaluate: rows in, rows out", run_run},

@@ -1,15 +1,12 @@
 #include "pipeline.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <string_view>
 
 #include "output.h"
 #include "sinew/algorithm/read.h"
 #include "sinew/model/load.h"
 #include "sinew/model/normalise.h"
-#include "sinew/model/regroup.h"
 #include "sinew/program/lower.h"
 #include "sinew/program/program_json.h"
 #include "sinew/rdf/catalogue/catalogue.h"
@@ -60,23 +57,7 @@ synthesis::Query query_of(const ModelOptions& files, const QueryOptions& options
   if (!options.tips.empty()) query.tips = options.tips;
   if (!options.gravity.empty()) query.gravity = parse_vector3(options.gravity, "--gravity");
   if (options.floating) query.floating = true;
-  if (query.floating) {
-    fail("solvers have no floating base yet",
-         "leave out --floating, and choose a --base that stands still");
-  }
   return query;
-}
-
-// Whether every answer stays the same when inertia is moved from a body to its predecessor: motions
-// do not know inertia, and of forces those of joints.
-bool allows_regrouping(const synthesis::Query& query) {
-  constexpr std::string_view kUnchanged[] = {"pose",          "twist",       "acceleration-twist",
-                                             "jacobian",      "joint-force", "bias-force",
-                                             "gravity-force", "mass-matrix", "joint-acceleration"};
-  return std::all_of(query.asked.begin(), query.asked.end(), [&](const synthesis::Asked& asked) {
-    return std::find(std::begin(kUnchanged), std::end(kUnchanged), asked.quantity) !=
-           std::end(kUnchanged);
-  });
 }
 
 void normalise(Models& models, const synthesis::Query& query) {
@@ -86,11 +67,10 @@ void normalise(Models& models, const synthesis::Query& query) {
   if (query.gravity)
     options.gravity = model::Vector3{(*query.gravity)[0], (*query.gravity)[1], (*query.gravity)[2]};
   Report report;
-  model::Tree tree = model::normalise(models.store, models.places, options, report);
+  const model::Tree tree = model::normalise(models.store, models.places, options, report);
   print_notes(report);
   report.throw_if_errors();
   for (const std::string& note : tree.notes) print_note(note);
-  if (allows_regrouping(query)) model::regroup_inertial_parameters(tree);
   model::write(tree, models.store);
 }
 

@@ -245,7 +245,7 @@ TEST(Usage, IsExitCodeTwo) {
 TEST(Usage, EveryCommandHasHelp) {
   const Result overview = run_sinew({"--help"});
   EXPECT_EQ(overview.exit_code, 0);
-  for (const std::string command : {"check", "import", "query", "update", "synth", "stats",
+  for (const std::string command : {"check", "import", "query", "update", "synth", "weave", "stats",
                                     "generate", "run", "bench", "explain"}) {
     EXPECT_NE(overview.out.find(command), std::string::npos) << command;
     EXPECT_EQ(run_sinew({command, "--help"}).exit_code, 0) << command;
