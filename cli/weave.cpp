@@ -1,0 +1,39 @@
+// sinew weave ALGO.jsonld UPDATE.rq -o ALGO2.jsonld: an algorithm rewritten by a SPARQL update.
+#include "sinew/algorithm/weave.h"
+
+#include <iostream>
+
+#include "options.h"
+#include "output.h"
+#include "pipeline.h"
+#include "prefixes.h"
+#include "write_models.h"
+
+namespace sinew::cli {
+
+int run_weave(Arguments arguments) {
+  CLI::App app(
+      "Rewrite an algorithm by a SPARQL update, which sees the algorithm's triples as its default "
+      "graph. The "
+      "result is checked as a whole; one that is at fault is refused and nothing is written.",
+      "sinew weave");
+  ModelOptions models_options;
+  models_options.files.resize(1);
+  std::string update, output;
+  app.add_option("ALGO", models_options.files.front(), "Algorithm that 'sinew synth' wrote")
+      ->required();
+  app.add_option("UPDATE", update, "SPARQL update; the project's prefixes need no declaration")
+      ->required();
+  app.add_option("-o,--output", output, "File for the new algorithm (default: standard output)");
+  if (const auto code = parse(app, std::move(arguments))) return *code;
+
+  const auto models = load(models_options);
+  const graph::Id algorithm = algorithm_of(*models, models_options, {});
+  const auto counts =
+      algorithm::weave(models->store, algorithm, with_known_prefixes(read_input(update)), update);
+  std::cerr << counts.added << " triples added, " << counts.removed << " removed\n";
+  write_output(output, algorithm_as_jsonld(models->store.view(), algorithm));
+  return kOk;
+}
+
+}  // namespace sinew::cli
