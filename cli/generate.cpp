@@ -1,5 +1,6 @@
 // sinew generate MODEL… --solver NAME -o DIR: source code.
 #include <filesystem>
+#include <iostream>
 
 #include "options.h"
 #include "output.h"
@@ -27,6 +28,8 @@ int run_generate(Arguments arguments) {
                  "flat: optimised straight-line code; readable: a call for each closure")
       ->check(CLI::IsMember({"flat", "readable"}))
       ->capture_default_str();
+  bool trace = false;
+  app.add_flag("--trace", trace, "Write what each optimisation pass does to standard error");
   app.add_option("-o,--output", folder, "Folder for the files")->capture_default_str();
   if (const auto code = parse(app, std::move(arguments))) return *code;
 
@@ -41,6 +44,11 @@ int run_generate(Arguments arguments) {
   options.name = program.name;
   options.style = style == "flat" ? backend::Style::kFlat : backend::Style::kReadable;
   options.source = describe(models_options, query);
+  if (trace) {
+    options.passes.trace = [](const program::PassReport& report) {
+      std::cerr << program::to_string(report) << '\n';
+    };
+  }
   const backend::GeneratedCode code = backend::generate_c(program, options);
   for (const backend::SourceFile& file : code.files) {
     write_output((std::filesystem::path(folder) / file.name).string(), file.text);
