@@ -120,5 +120,33 @@ TEST(Agreement, OfRandomTreesWithKdlMujocoAndDart) {
   std::filesystem::remove(file);
 }
 
+// The first links of these have mass, as a body that floats must.
+TEST(Agreement, OfFloatingRobotsWithMujocoAndDart) {
+  const auto robots = published_robots();
+  if (robots.empty()) GTEST_SKIP() << "there are no robots in " SINEW_SHARED_DIR;
+  for (const Robot& robot : robots) {
+    if (robot.name != "hyq.urdf" && robot.name != "clean/hyq.urdf" &&
+        robot.name != "gen3_7dof.urdf" && robot.name != "iiwa.urdf") {
+      continue;
+    }
+    SCOPED_TRACE(robot.name);
+    Question rnea(robot, "rnea", true), aba(robot, "aba", true);
+    const peers::Setup setup{robot.urdf, rnea.joints(), true, {0, 0, -9.81}};
+    const auto mujoco = peers::make_mujoco(setup), dart = peers::make_dart(setup);
+    double force_error = 0, acceleration_error = 0;
+    for (unsigned seed = 0; seed < kStates; ++seed) {
+      const peers::State state = random_state(rnea.joints().size(), seed, true);
+      const peers::Vector force = rnea.answer(state), acceleration = aba.answer(state, force);
+      for (const auto& other : {mujoco.get(), dart.get()}) {
+        force_error = std::max(force_error, difference(force, other->inverse_dynamics(state)));
+      }
+      acceleration_error =
+          std::max(acceleration_error, difference(acceleration, state.acceleration));
+    }
+    EXPECT_LT(force_error, 1e-9);
+    EXPECT_LT(acceleration_error, 1e-8);
+  }
+}
+
 }  // namespace
 }  // namespace sinew::test

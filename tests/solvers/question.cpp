@@ -4,9 +4,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 #include <sstream>
-#include <stdexcept>
 
 namespace sinew::test {
 
@@ -26,13 +26,14 @@ std::vector<Robot> published_robots() {
   return robots;
 }
 
-Question::Question(const Robot& robot, const std::string& solver) {
+Question::Question(const Robot& robot, const std::string& solver, bool floating) {
   cli::ModelOptions files;
   files.files = {robot.file};
   files.lenient = true;
   cli::QueryOptions query;
   query.solver = solver;
   query.gravity = "0,0,-9.81";
+  query.floating = floating;
   const auto models = cli::load(files);
   program_ = cli::program_of(*models, files, query, "");
   evaluator_ =
@@ -40,33 +41,43 @@ Question::Question(const Robot& robot, const std::string& solver) {
   inputs_ = cli::column_names(program_, evaluator_->interface().inputs);
   const std::string position = "position.";
   for (const std::string& input : inputs_) {
-    if (input.starts_with(position)) joints_.push_back(input.substr(position.size()));
+    if (input.starts_with(position) && !input.ends_with("]")) {
+      joints_.push_back(input.substr(position.size()));
+    }
   }
 }
 
 peers::Vector Question::answer(const peers::State& state, const peers::Vector& force) {
+  // Each quantity's numbers come in the order of the state: the base's, then the joints'.
   peers::Vector in;
+  std::map<std::string, std::size_t> used;
   for (const std::string& input : inputs_) {
-    const auto dot = input.find('.');
-    const std::string quantity = input.substr(0, dot);
-    const auto joint = std::find(joints_.begin(), joints_.end(), input.substr(dot + 1));
-    if (joint == joints_.end()) throw std::runtime_error("unexpected input " + input);
-    const auto index = static_cast<std::size_t>(joint - joints_.begin());
+    const std::string quantity = input.substr(0, input.find('.'));
     const peers::Vector& numbers = quantity == "position"       ? state.position
                                    : quantity == "velocity"     ? state.velocity
                                    : quantity == "acceleration" ? state.acceleration
                                                                 : force;
-    in.push_back(numbers.at(index));
+    in.push_back(numbers.at(used[quantity]++));
   }
   peers::Vector out(evaluator_->interface().out_size);
   evaluator_->evaluate(in.data(), out.data());
   return out;
 }
 
-peers::State random_state(std::size_t joints, unsigned seed) {
+peers::State random_state(std::size_t joints, unsigned seed, bool floating) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<> angle(-M_PI, M_PI), number(-1, 1);
   peers::State state;
+  if (floating) {
+    double quaternion[4], square = 0;
+    for (double& q : quaternion) square += (q = number(random)) * q;
+    for (int i = 0; i < 3; ++i) state.position.push_back(number(random));
+    for (const double q : quaternion) state.position.push_back(q / std::sqrt(square));
+    for (int i = 0; i < 6; ++i) {
+      state.velocity.push_back(number(random));
+      state.acceleration.push_back(number(random));
+    }
+  }
   for (std::size_t i = 0; i < joints; ++i) {
     state.position.push_back(angle(random));
     state.velocity.push_back(number(random));

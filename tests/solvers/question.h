@@ -23,10 +23,11 @@ std::vector<Robot> published_robots();
 
 class Question {
  public:
-  // `solver`: rnea, aba, crba, fpk, …; gravity is 0,0,-9.81 seen from the base.
-  Question(const Robot& robot, const std::string& solver);
+  // `solver`: rnea, aba, crba, fpk, …; gravity is 0,0,-9.81 seen from the base, or from the world
+  // if it floats.
+  Question(const Robot& robot, const std::string& solver, bool floating = false);
 
-  // The moving joints, in the order of the program's inputs.
+  // The moving joints, in the order of the program's inputs; of a floating base only the others.
   const std::vector<std::string>& joints() const { return joints_; }
   const program::Program& program() const { return program_; }
 
@@ -43,6 +44,6 @@ class Question {
 };
 
 // Positions are drawn from +-pi, velocities and accelerations from +-1.
-peers::State random_state(std::size_t joints, unsigned seed);
+peers::State random_state(std::size_t joints, unsigned seed, bool floating = false);
 
 }  // namespace sinew::test
