@@ -118,6 +118,13 @@ void Builder::closure_of_many(std::string_view operation, std::span<const std::u
   append(*op, std::move(arguments), std::move(counts), cause);
 }
 
+void Builder::closure_with_counts(std::string_view operation, std::vector<std::uint32_t> arguments,
+                                  std::vector<std::uint32_t> counts, const Cause& cause) {
+  const Operator* op = find_operator(operation);
+  if (op == nullptr) throw std::logic_error("no operator is named " + std::string(operation));
+  append(*op, std::move(arguments), std::move(counts), cause);
+}
+
 void Builder::append(const Operator& op, std::vector<std::uint32_t> arguments,
                      std::vector<std::uint32_t> counts, const Cause& cause) {
   std::vector<Id> parts = {algorithm_.id};

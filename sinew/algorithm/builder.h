@@ -58,6 +58,10 @@ class Builder {
   void closure_of_many(std::string_view operation, std::span<const std::uint32_t> many,
                        std::initializer_list<std::uint32_t> others, const Cause& cause);
 
+  // The same with so many arguments for each port.
+  void closure_with_counts(std::string_view operation, std::vector<std::uint32_t> arguments,
+                           std::vector<std::uint32_t> counts, const Cause& cause);
+
   // Hands a block out, after the outputs so far.
   void output(std::uint32_t block);
 

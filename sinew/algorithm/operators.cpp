@@ -260,8 +260,22 @@ constexpr Row kRows[] = {
      "columns*:jacobian-column -> jacobian:jacobian",
      "jacobian.of = columns.of; jacobian.wrt = columns.wrt; jacobian.at = columns.at",
      "6 x n, row by row"},
+    {"jacobian-columns-floating", SINEW_OWN "jacobian-columns-floating",
+     "joint-pose:pose point-pose:pose -> columns:jacobian-block",
+     "point-pose.wrt = joint-pose.wrt; columns.seen = joint-pose.wrt; columns.ref = point-pose.of; "
+     "columns.wrt = joint-pose.wrt; columns.of = point-pose.of",
+     "(R, -[p_point - p_joint]x R; 0, R)"},
+    {"floating-jacobian-from-columns", SINEW_OWN "floating-jacobian-from-columns",
+     "base:jacobian-block columns*:jacobian-column -> jacobian:jacobian",
+     "columns.of = base.of; columns.wrt = base.wrt; columns.at = base.at; jacobian.of = base.of; "
+     "jacobian.wrt = base.wrt; jacobian.at = base.at",
+     "6 x (6 + n), row by row"},
     {"mass-matrix-from-entries", SINEW_OWN "mass-matrix-from-entries",
      "entries*:joint-force -> mass-matrix:mass-matrix", "", "n x n, row by row"},
+    {"floating-mass-matrix-from-parts", SINEW_OWN "floating-mass-matrix-from-parts",
+     "inertia:rigid-body-inertia base-wrenches*:wrench entries*:joint-force -> "
+     "mass-matrix:mass-matrix",
+     "base-wrenches.at = inertia.at", "(6 + n) x (6 + n), row by row"},
 };
 
 [[noreturn]] void fault(const Row& row, std::string_view what) {

@@ -34,6 +34,7 @@ constexpr std::array kQuantities = {
     // Of a revolute joint: rotation, and metres for each radian; of a prismatic one the other
     // units.
     Quantity{"jacobian-column", 6, "UNITLESS M", "PER-M UNITLESS", kTwist},
+    Quantity{"jacobian-block", 36, "UNITLESS M", "", kTwist},  // six columns, one after the other
     Quantity{"jacobian", 0, "UNITLESS M", "", kTwist},
     Quantity{"mass-matrix", 0, "KiloGM M-KiloGM KiloGM-M2", "", kNone},
 };

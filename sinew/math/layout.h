@@ -8,6 +8,7 @@
 #include "sinew/math/articulated_inertia.h"
 #include "sinew/math/floating.h"
 #include "sinew/math/inertia.h"
+#include "sinew/math/jacobian.h"
 #include "sinew/math/pose.h"
 #include "sinew/math/twist.h"
 #include "sinew/math/wrench.h"
@@ -97,6 +98,20 @@ struct Layout<FloatingPosition<S>> {
   static void store(const FloatingPosition<S>& q, S* at) {
     at[0] = q.p.x, at[1] = q.p.y, at[2] = q.p.z;
     at[3] = q.v.x, at[4] = q.v.y, at[5] = q.v.z, at[6] = q.w;
+  }
+};
+
+// One column after the other.
+template <typename S>
+struct Layout<JacobianBlock<S>> {
+  static constexpr std::uint32_t kSize = 36;
+  static JacobianBlock<S> load(const S* at) {
+    JacobianBlock<S> block;
+    for (int k = 0; k < 6; ++k) block.columns[k] = Layout<VelocityTwist<S>>::load(at + 6 * k);
+    return block;
+  }
+  static void store(const JacobianBlock<S>& block, S* at) {
+    for (int k = 0; k < 6; ++k) Layout<VelocityTwist<S>>::store(block.columns[k], at + 6 * k);
   }
 };
 

@@ -209,3 +209,33 @@ void sinew_subtract_floating_force(const double* a, const double* b, double* c) 
 void sinew_floating_acceleration_from_force(const double* I, const double* u, double* qdd) {
   store(solve(load<ArticulatedInertia>(I), load<Wrench>(u)), qdd);
 }
+
+void sinew_jacobian_columns_floating(const double* X_RC, const double* X_RB, double* J) {
+  store(jacobian_columns_floating(load<Pose>(X_RC), load<Pose>(X_RB)), J);
+}
+
+void sinew_floating_jacobian_from_columns(const double* const columns[], int count, double* J) {
+  const int width = 6 + count - 1;
+  for (int row = 0; row < 6; ++row) {
+    for (int k = 0; k < 6; ++k) J[row * width + k] = columns[0][6 * k + row];
+    for (int j = 1; j < count; ++j) J[row * width + 5 + j] = columns[j][row];
+  }
+}
+
+void sinew_floating_mass_matrix_from_parts(const double* const parts[], int count, double* M) {
+  int n = 0;
+  while (1 + n + n * n < count) ++n;
+  const int width = 6 + n;
+  const RigidBodyInertia<double> I = load<RigidBodyInertia>(parts[0]);
+  for (int c = 0; c < 6; ++c) {
+    double unit[6] = {};
+    unit[c] = 1;
+    double column[6];
+    store(newton_euler_at_rest(I, load<AccelerationTwist>(unit)), column);
+    for (int r = 0; r < 6; ++r) M[r * width + c] = column[r];
+  }
+  for (int j = 0; j < n; ++j) {
+    for (int r = 0; r < 6; ++r) M[r * width + 6 + j] = M[(6 + j) * width + r] = parts[1 + j][r];
+    for (int c = 0; c < n; ++c) M[(6 + j) * width + 6 + c] = *parts[1 + n + j * n + c];
+  }
+}

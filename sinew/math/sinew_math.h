@@ -113,6 +113,11 @@ void sinew_jacobian_column_prismatic(const double X_RC[12], const double X_RB[12
 /* Matrices, row by row: from `count` numbers one after the other; from `count` columns of 6. */
 void sinew_mass_matrix_from_entries(const double *const entries[], int count, double *M);
 void sinew_jacobian_from_columns(const double *const columns[], int count, double *J);
+/* The same of a floating base: first its 6 columns one after the other; or its composite inertia (10), then n
+ * wrenches (6), then n x n entries. */
+void sinew_jacobian_columns_floating(const double X_RC[12], const double X_RB[12], double J[36]);
+void sinew_floating_jacobian_from_columns(const double *const columns[], int count, double *J);
+void sinew_floating_mass_matrix_from_parts(const double *const parts[], int count, double *M);
 
 #ifdef __cplusplus
 }

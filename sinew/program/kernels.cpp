@@ -193,6 +193,10 @@ std::vector<Kernel> make_kernels() {
             return solve(I, u);
           }),
 
+      row("jacobian-columns-floating",
+          []<typename S>(const Pose<S>& X_RC, const Pose<S>& X_RB) {
+            return jacobian_columns_floating(X_RC, X_RB);
+          }),
       row("jacobian-column-revolute",
           []<typename S>(const Pose<S>& X_RC, const Pose<S>& X_RB) {
             return jacobian_column_revolute(X_RC, X_RB);

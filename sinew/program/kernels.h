@@ -28,6 +28,9 @@ struct Kernel {
   void (*evaluate_many)(double* const* arguments, std::span<const std::uint32_t> sizes) = nullptr;
   void (*trace_many)(Traced* const* arguments, std::span<const std::uint32_t> sizes) = nullptr;
 
+  // Of an operator of many arguments: the output's size; without it, the sum of the arguments'.
+  std::uint32_t (*size_of_many)(std::span<const std::uint32_t> sizes) = nullptr;
+
   bool many() const { return evaluate_many != nullptr; }
   // The port of an argument, of a closure with `count` arguments.
   const Port& port(std::size_t argument, std::size_t count) const {

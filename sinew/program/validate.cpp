@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <unordered_map>
 
 #include "sinew/program/kernels.h"
@@ -71,6 +73,11 @@ class Validator {
     }
   }
 
+  static std::uint32_t size_of_many(const Kernel& kernel, std::span<const std::uint32_t> sizes) {
+    if (kernel.size_of_many != nullptr) return kernel.size_of_many(sizes);
+    return std::accumulate(sizes.begin(), sizes.end(), std::uint32_t{0});
+  }
+
   // Whether its operator and arguments fit, so that its reads and writes can be followed.
   bool check_closure(const Closure& closure) {
     const Kernel* kernel = find_kernel(closure.operation);
@@ -88,7 +95,7 @@ class Validator {
       return false;
     }
     bool sound = true;
-    std::uint32_t together = 0;  // what an operator of many arguments gives
+    std::vector<std::uint32_t> sizes;  // of the arguments before
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t index = closure.arguments[i];
       if (index >= program_.variables.size()) {
@@ -100,8 +107,9 @@ class Validator {
       }
       const Variable& v = program_.variables[index];
       const Port& port = kernel->port(i, count);
-      const std::uint32_t size = port.size != 0 ? port.size : together;
-      together += v.size;
+      std::uint32_t size = port.size;
+      if (size == 0) size = port.output ? size_of_many(*kernel, sizes) : v.size;
+      sizes.push_back(v.size);
       if (v.size != size) {
         fault(closure.iri,
               fmt::format("argument {} of '{}' is '{}' <{}>, which holds {} numbers", i + 1,

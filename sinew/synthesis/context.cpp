@@ -106,6 +106,11 @@ void Context::closure_of_many(std::string_view operation, std::span<const BlockI
   builder.closure_of_many(operation, many, others, cause(about));
 }
 
+void Context::closure_with_counts(std::string_view operation, std::vector<BlockIndex> arguments,
+                                  std::vector<std::uint32_t> counts, Id about) {
+  builder.closure_with_counts(operation, std::move(arguments), std::move(counts), cause(about));
+}
+
 Id Context::pair(Id a, Id b) {
   graph::Terms& terms = builder.terms();
   return terms.derived(terms.iri(std::string(algorithm::kAlgorithmNamespace) + "Pair"), {a, b});

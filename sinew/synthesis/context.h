@@ -72,6 +72,9 @@ struct Context {
   void closure_of_many(std::string_view operation, std::span<const BlockIndex> many,
                        std::initializer_list<BlockIndex> others, Id about);
 
+  void closure_with_counts(std::string_view operation, std::vector<BlockIndex> arguments,
+                           std::vector<std::uint32_t> counts, Id about);
+
   // The part of a joint's data blocks' names after the dot, where it is not the joint's name.
   std::string_view label(Id joint) const;
 

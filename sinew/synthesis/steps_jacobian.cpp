@@ -39,7 +39,7 @@ void configure(Context& context, const Visit& visit) {
                               std::string(algorithm::short_name(terms.text(joint->joint)));
     BlockSpec spec = {.slot = "jacobian-column",
                       .represents = context.pair(frame, joint->joint),
-                      .quantity = "jacobian-column",
+                      .quantity = joint->kind == "floating" ? "jacobian-block" : "jacobian-column",
                       .of = frame,
                       .wrt = root,
                       .reference = frame,
@@ -52,6 +52,7 @@ void configure(Context& context, const Visit& visit) {
     }
     context.make(spec);
   }
+  const bool floats = !joints.empty() && joints.front()->kind == "floating";
   context.make({.slot = "jacobian",
                 .represents = frame,
                 .quantity = "jacobian",
@@ -59,22 +60,30 @@ void configure(Context& context, const Visit& visit) {
                 .wrt = root,
                 .reference = frame,
                 .seen_by = root,
-                .size = static_cast<std::uint32_t>(6 * joints.size())});
+                .size = static_cast<std::uint32_t>(6 * (joints.size() + (floats ? 5 : 0)))});
 }
 
 void compute(Context& context, const Visit& visit) {
   const Id frame = visit.node;
   std::vector<BlockIndex> blocks;
+  bool floats = false;
   for (const RobotJoint* joint : columns(context)) {
     blocks.push_back(context.block("jacobian-column", context.pair(frame, joint->joint)));
     if (!leads_to(context, *joint, frame)) continue;
+    floats |= joint->kind == "floating";
     context.closure(
-        "jacobian-column-" + joint->kind,
+        floats && blocks.size() == 1 ? "jacobian-columns-floating"
+                                     : "jacobian-column-" + joint->kind,
         {context.block("pose", joint->frame), context.block("pose", frame), blocks.back()},
         joint->joint);
   }
-  context.closure_of_many("jacobian-from-columns", blocks, {context.block("jacobian", frame)},
-                          frame);
+  const auto count = static_cast<std::uint32_t>(blocks.size());
+  blocks.push_back(context.block("jacobian", frame));
+  if (floats)
+    context.closure_with_counts("floating-jacobian-from-columns", std::move(blocks),
+                                {1, count - 1, 1}, frame);
+  else
+    context.closure_with_counts("jacobian-from-columns", std::move(blocks), {count, 1}, frame);
 }
 
 }  // namespace

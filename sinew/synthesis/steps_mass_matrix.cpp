@@ -86,6 +86,7 @@ BlockIndex make_wrench(Context& context, std::string_view slot, const JointEdge&
 
 void configure_entries(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
+  if (edge.floats()) return;  // the wrenches that reach it are its entries
   context.board.carry(kCarried, edge.child,
                       {edge.joint, make_wrench(context, "unit-acceleration-wrench", edge,
                                                edge.joint, edge.successor, edge.child)});
@@ -111,6 +112,7 @@ void configure_entries(Context& context, const Visit& visit) {
 
 void compute_entries(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
+  if (edge.floats()) return;
   context.closure("wrench-of-" + edge.kind + "-from-rigid-body-inertia",
                   {composite_so_far(context, edge.child, edge.successor),
                    context.block("unit-acceleration-wrench", context.pair(edge.joint, edge.joint))},
@@ -131,7 +133,8 @@ void compute_entries(Context& context, const Visit& visit) {
 }
 
 void configure_matrix(Context& context, const Visit& visit) {
-  const auto n = static_cast<std::uint32_t>(context.robot.joints.size());
+  auto n = static_cast<std::uint32_t>(context.robot.joints.size());
+  if (context.query.floating) n += 5;
   context.make({.slot = "mass-matrix",
                 .represents = visit["body"],
                 .quantity = "mass-matrix",
@@ -148,18 +151,41 @@ void configure_matrix(Context& context, const Visit& visit) {
 }
 
 // Symmetric: the entry of two joints was made where the outer one's wrench met the inner one.
-void compute_matrix(Context& context, const Visit& visit) {
-  std::vector<BlockIndex> entries;
+std::vector<BlockIndex> entries(Context& context, Id root_body) {
+  std::vector<BlockIndex> found;
   for (const RobotJoint& row : context.robot.joints)
     for (const RobotJoint& column : context.robot.joints) {
+      if (row.kind == "floating" || column.kind == "floating") continue;
       BlockIndex entry =
           context.board.find("mass-matrix-entry", context.pair(row.joint, column.joint));
       if (entry == kNoIndex)
         entry = context.board.find("mass-matrix-entry", context.pair(column.joint, row.joint));
-      entries.push_back(entry != kNoIndex ? entry : context.block("no-force", visit["body"]));
+      found.push_back(entry != kNoIndex ? entry : context.block("no-force", root_body));
     }
-  context.closure_of_many("mass-matrix-from-entries", entries,
-                          {context.block("mass-matrix", visit["body"])}, visit["body"]);
+  return found;
+}
+
+// The composite inertia of a floating base, and the wrench of each joint where it reaches it.
+void compute_floating_matrix(Context& context, const Visit& visit) {
+  const RobotJoint& base = context.robot.joints.front();
+  const std::vector<BlockIndex> all = entries(context, visit["body"]);
+  std::vector<BlockIndex> parts = {composite_so_far(context, base.frame, base.successor)};
+  for (const RobotJoint& joint : context.robot.joints)
+    for (const auto& [origin, wrench] : context.board.carried(kCarried, base.frame))
+      if (origin == joint.joint) parts.push_back(wrench);
+  const auto joints = static_cast<std::uint32_t>(parts.size() - 1);
+  parts.insert(parts.end(), all.begin(), all.end());
+  parts.push_back(context.block("mass-matrix", visit["body"]));
+  context.closure_with_counts("floating-mass-matrix-from-parts", std::move(parts),
+                              {1, joints, joints * joints, 1}, visit["body"]);
+}
+
+void compute_matrix(Context& context, const Visit& visit) {
+  if (context.query.floating)
+    compute_floating_matrix(context, visit);
+  else
+    context.closure_of_many("mass-matrix-from-entries", entries(context, visit["body"]),
+                            {context.block("mass-matrix", visit["body"])}, visit["body"]);
 }
 
 }  // namespace

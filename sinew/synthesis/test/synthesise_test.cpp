@@ -178,6 +178,50 @@ TEST_F(SynthesiseTest, WorksAsASweepConfigurationSays) {
               written.closures[written.schedule[i]].op->name);
 }
 
+TEST_F(SynthesiseTest, PutsAFloatingBaseFirstWithItsSevenAndSixNumbers) {
+  Query query = named_query("rnea");
+  query.floating = true;
+  const std::size_t before = store_.view().size();
+  const algorithm::Algorithm rnea = algorithm_of(query);
+  EXPECT_EQ(names(rnea, false).front(), "position.base");
+  EXPECT_EQ(names(rnea, true).front(), "force.base");
+  for (const Block& block : rnea.blocks) {
+    if (block.name == "position.base") {
+      EXPECT_EQ(block.size, 7u);
+    } else if (block.name == "force.base") {
+      EXPECT_EQ(block.size, 6u);
+    }
+  }
+  // The tree itself is as it was: what floats is known to this algorithm alone.
+  graph::Transaction transaction = store_.begin();
+  transaction.clear(rnea.id);
+  transaction.commit();
+  EXPECT_EQ(store_.view().size(), before);
+  EXPECT_EQ(names(algorithm_of(named_query("rnea")), false).front(), "position.one");
+}
+
+// The joint about z cannot tell masses on its axis, so the predecessor carries them.
+TEST_F(SynthesiseTest, RegroupsInertiasUnlessTheQueryOrSomethingAskedForbidsIt) {
+  const auto mass_of_D = [&](const Query& query) {
+    for (const Block& block : algorithm_of(query).blocks)
+      if (block.name == "inertia.D") return block.value.at(0);
+    return -1.0;
+  };
+  Query query = named_query("rnea");
+  EXPECT_EQ(mass_of_D(query), 0.0);
+  query.regroup = false;
+  EXPECT_EQ(mass_of_D(query), 1.5);
+}
+
+TEST_F(SynthesiseTest, RefusesForwardDynamicsOfALeafWithoutInertia) {
+  const Id property = store_.terms().iri("https://w3id.org/sinew/kinematic-tree#inertia");
+  const Id D = example(store_, "D");
+  store_.remove({D, property, store_.view().object(D, property),
+                 store_.terms().iri(model::kNormalisedGraph)});
+  EXPECT_THAT(fault(named_query("aba")),
+              HasSubstr("https://example.org/D: it ends a chain and has no inertia"));
+}
+
 TEST_F(SynthesiseTest, RefusesAnUnknownFrameAndSaysWhichThereAre) {
   Query query = named_query("fpk");
   query.tips = {"hand"};
