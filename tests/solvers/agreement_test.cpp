@@ -130,21 +130,25 @@ TEST(Agreement, OfFloatingRobotsWithMujocoAndDart) {
       continue;
     }
     SCOPED_TRACE(robot.name);
-    Question rnea(robot, "rnea", true), aba(robot, "aba", true);
+    Question rnea(robot, "rnea", true), aba(robot, "aba", true), crba(robot, "crba", true);
     const peers::Setup setup{robot.urdf, rnea.joints(), true, {0, 0, -9.81}};
     const auto mujoco = peers::make_mujoco(setup), dart = peers::make_dart(setup);
-    double force_error = 0, acceleration_error = 0;
+    double force_error = 0, acceleration_error = 0, mass_error = 0;
     for (unsigned seed = 0; seed < kStates; ++seed) {
       const peers::State state = random_state(rnea.joints().size(), seed, true);
       const peers::Vector force = rnea.answer(state), acceleration = aba.answer(state, force);
       for (const auto& other : {mujoco.get(), dart.get()}) {
         force_error = std::max(force_error, difference(force, other->inverse_dynamics(state)));
+        if (seed >= 50) continue;
+        mass_error =
+            std::max(mass_error, difference(crba.answer(state), other->mass_matrix(state)));
       }
       acceleration_error =
           std::max(acceleration_error, difference(acceleration, state.acceleration));
     }
     EXPECT_LT(force_error, 1e-9);
     EXPECT_LT(acceleration_error, 1e-8);
+    EXPECT_LT(mass_error, 1e-8);
   }
 }
 

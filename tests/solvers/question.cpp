@@ -70,7 +70,10 @@ peers::State random_state(std::size_t joints, unsigned seed, bool floating) {
   peers::State state;
   if (floating) {
     double quaternion[4], square = 0;
-    for (double& q : quaternion) square += (q = number(random)) * q;
+    for (double& q : quaternion) {
+      q = number(random);
+      square += q * q;
+    }
     for (int i = 0; i < 3; ++i) state.position.push_back(number(random));
     for (const double q : quaternion) state.position.push_back(q / std::sqrt(square));
     for (int i = 0; i < 6; ++i) {
