@@ -9,6 +9,9 @@
 namespace sinew::model {
 namespace {
 
+// A message lists no more elements than these.
+constexpr std::size_t kMaximumListed = 12;
+
 struct Search {
   const Structure& structure;
   const RigidBodies& bodies;
@@ -26,7 +29,12 @@ struct Search {
   }
   std::string list(const std::vector<Id>& ids) const {
     std::string names;
-    for (const Id id : ids) names += fmt::format("{}<{}>", names.empty() ? "" : ", ", text(id));
+    for (std::size_t i = 0; i < ids.size() && i < kMaximumListed; ++i) {
+      names += fmt::format("{}<{}>", names.empty() ? "" : ", ", text(ids[i]));
+    }
+    if (ids.size() > kMaximumListed) {
+      names += fmt::format(" and {} more", ids.size() - kMaximumListed);
+    }
     return names;
   }
 };

@@ -4,6 +4,7 @@
 
 #include "models.h"
 #include "newton_euler.h"
+#include "small_models.h"
 
 namespace sinew::model::test {
 namespace {
@@ -137,6 +138,55 @@ TEST(OwnGen3, NeedsNoDynamicsForKinematics) {
   const Dynamics result = newton_euler(model.tree, states()[1].motion);
   const Pose X = pose_of(model.tree, result, model.frame("/link7-root")->iri);
   EXPECT_NEAR(X.p.x, states()[1].p.x, 1e-15);
+}
+
+// A link composed on top of the published files, by a file of its own (reference.md, section 2.4).
+constexpr std::string_view kLinkB = R"(
+@prefix rob: <https://comp-rob2b.github.io/robots/kinova/gen3/7dof/> .
+rob:link3 geom:simplices rob:link3-jointB, rob:link3-jointB-origin .
+rob:link3-jointB a geom:Frame ; geom:origin rob:link3-jointB-origin ; geom:vector-z rob:B-z1 .
+rob:link3-jointB-origin a geom:Point .
+rob:linkB a geom:SimplicialComplex ; geom:simplices rob:linkB-root, rob:linkB-origin, rob:linkB-com .
+rob:linkB-root a geom:Frame ; geom:origin rob:linkB-origin ; geom:vector-z rob:B-z2 .
+rob:linkB-origin a geom:Point .
+rob:linkB-com a geom:Point .
+rob:B-z1 a geom:Vector . rob:B-z2 a geom:Vector .
+rob:jointB a kc:Joint, kc:RevoluteJoint ; kc:common-axis rob:B-axis ; kc:origin-offset rob:B-offset ;
+  kc:between-attachments rob:link3-jointB, rob:linkB-root .
+rob:B-axis a rel:LineCollinearity ; rel:lines rob:B-z1, rob:B-z2 .
+rob:B-offset a rel:Position ; rel:of rob:linkB-origin ; rel:with-respect-to rob:link3-jointB-origin .
+rob:B-pose a rel:Pose ; rel:of rob:link3-jointB ; rel:with-respect-to rob:link3-root .
+rob:B-pose-coord a coord:PoseCoordinate ; coord:of-pose rob:B-pose ; coord:as-seen-by rob:link3-root ;
+  qudt:unit unit:UNITLESS, unit:M ; coord:direction-cosine-x (1 0 0) ;
+  coord:direction-cosine-y (0 0 1) ; coord:direction-cosine-z (0 -1 0) ;
+  coord:x 0.05 ; coord:y 0.02 ; coord:z -0.1 .
+rob:B-com a rel:Position ; rel:of rob:linkB-com ; rel:with-respect-to rob:linkB-origin .
+rob:B-com-coord a coord:PositionCoordinate ; coord:of-position rob:B-com ; coord:as-seen-by rob:linkB-root ;
+  qudt:unit unit:M ; coord:x 0.01 ; coord:y -0.05 ; coord:z 0.02 .
+rob:B-inertia a dyn:RigidBodyInertia ; dyn:of-body rob:linkB ; dyn:about rob:linkB-com .
+rob:B-inertia-coord a dync:RigidBodyInertiaCoordinate ; dync:of-inertia rob:B-inertia ;
+  dync:as-seen-by rob:linkB-root ; qudt:unit unit:KiloGM, unit:M-KiloGM, unit:KiloGM-M2 ;
+  dync:mass 0.7 ; dync:first-moment-of-mass (0 0 0) ; dync:ixx 0.002 ; dync:ixy 1e-5 ;
+  dync:ixz 2e-5 ; dync:iyy 0.001 ; dync:iyz -3e-5 ; dync:izz 0.0021 .
+)";
+
+TEST(PublishedGen3, CarriesABranchThatAnotherFileAdds) {
+  SINEW_NEEDS(published_gen3().front());
+  Model model;
+  std::vector<Source> sources = {turtle(std::string(kLinkB))};
+  for (const auto& file : published_gen3()) {
+    sources.insert(sources.end() - 1, read_source(file));
+  }
+  normalise_texts(model, sources);
+  ASSERT_FALSE(model.report.has_errors()) << model.problems();
+  ASSERT_EQ(model.tree.joints.size(), 8u);
+  Motion motion = states()[1].motion;
+  motion.q.push_back(0.9), motion.qd.push_back(1.1), motion.qdd.push_back(-2);
+  const Dynamics result = newton_euler(model.tree, motion);
+  const std::vector<double> expected = {0.479282727471986,  6.09432497723859,  0.327904577935636,
+                                        3.68574670152786,   0.192654447404039, 0.711764347907679,
+                                        0.0224545988865983, -0.292233467049947};
+  for (int k = 0; k < 8; ++k) EXPECT_NEAR(result.forces[k], expected[k], 1e-13) << k;
 }
 
 }  // namespace
