@@ -30,6 +30,6 @@ ResultSet read_results(std::string_view text, ResultFormat format, std::string_v
 
 // Limits of the readers, with an Error beyond.
 inline constexpr std::size_t kMaxResultColumns = 10'000;
-inline constexpr std::size_t kMaxResultCells = 100'000'000;
+inline constexpr std::size_t kMaxResultCells = 20'000'000;
 
 }  // namespace sinew::rdf

@@ -183,6 +183,15 @@ TEST_F(Formats, LimitTheNumberOfVariables) {
   EXPECT_NE(message(text, ResultFormat::kCsv).find(expected), std::string::npos);
 }
 
+TEST_F(Formats, LimitTheNumberOfValues) {
+  constexpr std::size_t kColumns = kMaxResultColumns - 1;
+  std::string text = "v0";
+  for (std::size_t i = 1; i < kColumns; ++i) text += ",v" + std::to_string(i);
+  const std::string row(kColumns - 1, ',');
+  for (std::size_t i = 0; i <= kMaxResultCells / (kColumns + 1); ++i) text += "\n" + row;
+  EXPECT_EQ(message(text, ResultFormat::kCsv), "2002:1 there are more than 20000000 values");
+}
+
 TEST_F(Formats, AreKnownByTheEndOfTheName) {
   EXPECT_EQ(result_format_of_file("a/b.srx"), ResultFormat::kXml);
   EXPECT_EQ(result_format_of_file("b.srj"), ResultFormat::kJson);

@@ -85,15 +85,21 @@ bool is_unit(const Pattern& pattern) {
 Pattern join(Pattern left, Pattern right) {
   if (is_unit(left)) return right;
   if (is_unit(right)) return left;
-  Pattern result;
-  for (Pattern* side : {&left, &right}) {
-    if (side->kind == Pattern::Kind::kJoin) {
-      for (Pattern& part : side->parts) result.parts.push_back(std::move(part));
-    } else {
-      result.parts.push_back(std::move(*side));
-    }
+  if (left.kind != Pattern::Kind::kJoin) {
+    Pattern result;
+    result.possible = left.possible;
+    result.certain = left.certain;
+    result.parts.push_back(std::move(left));
+    left = std::move(result);
   }
-  return finished(std::move(result));
+  left.possible.add(right.possible);
+  left.certain.add(right.certain);
+  if (right.kind == Pattern::Kind::kJoin) {
+    for (Pattern& part : right.parts) left.parts.push_back(std::move(part));
+  } else {
+    left.parts.push_back(std::move(right));
+  }
+  return left;
 }
 
 Expression Translator::expression(Scope& scope, const syntax::Expression& source) {

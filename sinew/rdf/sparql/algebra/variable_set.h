@@ -26,7 +26,13 @@ class VariableSet {
     if (at == items_.end() || *at != variable) items_.insert(at, variable);
   }
   void add(const VariableSet& other) {
-    if (other.items_.empty()) return;
+    // Most sets that are added are small, and most of their variables are here already or are newer
+    // than all that are here.
+    constexpr std::size_t kSmall = 8;
+    if (other.items_.size() <= kSmall) {
+      for (const Variable variable : other.items_) add(variable);
+      return;
+    }
     std::vector<Variable> merged;
     merged.reserve(items_.size() + other.items_.size());
     std::set_union(items_.begin(), items_.end(), other.items_.begin(), other.items_.end(),

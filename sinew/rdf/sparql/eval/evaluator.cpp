@@ -251,6 +251,7 @@ bool Evaluator::values_rows(const Op& op) {
   const std::size_t saved = save(table.slots);
   bool go_on = true;
   for (std::size_t row = 0; go_on && row < table.row_count; ++row) {
+    tick();
     if (bind_row(table.slots, table.cells.data() + row * width)) go_on = run(op.next);
     restore(table.slots, saved);
   }

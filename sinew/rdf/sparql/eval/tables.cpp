@@ -77,6 +77,7 @@ bool Evaluator::join_table(const Op& op) {
   const std::size_t saved = save(block.columns);
   bool go_on = true;
   const auto join = [&](std::size_t row) {
+    tick();
     if (bind_row(block.columns, state.rows.data() + row * state.width)) go_on = run(op.next);
     restore(block.columns, saved);
   };
@@ -105,6 +106,7 @@ bool Evaluator::survives_minus(const Op& op) {
   const Block& block = plan_->blocks[plan_->tables[op.item].block];
   const TableState& state = table(op.item);
   for (std::size_t row = 0; row < state.count; ++row) {
+    tick();
     bool shares = false;
     bool compatible = true;
     for (std::size_t i = 0; compatible && i < state.width; ++i) {

@@ -66,6 +66,12 @@ class Successors {
 
 }  // namespace
 
+void Planner::fail_too_long() const {
+  const std::string what =
+      fmt::format("a solution would pass through more than {} operators", kMaximumChain);
+  query_.source->fail(0, what, "split the query into several");
+}
+
 void Planner::check_depth() const {
   Successors successors(*plan_);
   // Depth first, with a stack of our own: the graph of operators has no cycles.
@@ -87,14 +93,7 @@ void Planner::check_depth() const {
       if (!complete) continue;
       stack.pop_back();
       depth[index] = deepest + 1;
-      if (depth[index] <= kMaximumChain) continue;
-      throw Error(Problem{
-          plan_->source ? plan_->source->place(0) : Place{},
-          {},
-          fmt::format("a solution would pass through more than {} operators", kMaximumChain),
-          "split the query into several",
-          Severity::kError,
-          {}});
+      if (depth[index] > kMaximumChain) fail_too_long();
     }
   }
 }

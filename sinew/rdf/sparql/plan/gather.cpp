@@ -1,5 +1,6 @@
 // Patterns to items: groups within groups become one list wherever that keeps their meaning.
 #include <algorithm>
+#include <unordered_map>
 
 #include "sinew/rdf/sparql/plan/planner_class.h"
 #include "sinew/rdf/sparql/plan/safety.h"
@@ -167,11 +168,19 @@ void Planner::gather_triple(const algebra::Triple& triple, const Context& contex
 
 void Planner::gather_join(const Pattern& pattern, const Context& context,
                           std::vector<Item>& items) {
+  // In how many parts a variable may be bound.
+  std::unordered_map<Variable, std::size_t> binders;
+  for (const Pattern& part : pattern.parts) {
+    for (const Variable variable : part.possible) ++binders[variable];
+  }
   const auto safe_among_others = [&](const Pattern& part) {
     if (part.kind == Kind::kTriples || part.kind == Kind::kValues) return true;
-    VariableSet others = context.maybe;
-    for (const Pattern& other : pattern.parts) {
-      if (&other != &part) others.add(other.possible);
+    VariableSet others;
+    for (const Variable variable : algebra::mentioned(part)) {
+      const auto found = binders.find(variable);
+      const std::size_t count = found == binders.end() ? 0 : found->second;
+      const bool bound_elsewhere = count > (part.possible.has(variable) ? 1u : 0u);
+      if (bound_elsewhere || context.maybe.has(variable)) others.add(variable);
     }
     others.remove(context.fixed);
     return safe_inside(part, others);

@@ -72,6 +72,7 @@ class Planner {
   // --- blocks.cpp ---
   Index block(const algebra::Select& select, const Context& context);
   void check_depth() const;  // depth.cpp
+  [[noreturn]] void fail_too_long() const;
   Slot slot(Variable variable, const Context& context);
   Slot fresh_slot(std::string name);
   Slot constant(graph::Id id);

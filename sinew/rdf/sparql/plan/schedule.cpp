@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "sinew/rdf/sparql/plan/planner_class.h"
+#include "sinew/rdf/sparql/syntax/limits.h"
 
 namespace sinew::rdf::sparql::plan {
 namespace {
@@ -39,6 +40,7 @@ bool Planner::ready(const Item& item, const std::vector<Item>& items, std::size_
 }
 
 void Planner::order_and_emit(std::vector<Item>& items, Context context) {
+  if (items.size() > kMaximumChain) fail_too_long();
   // Of very many items only the next ones in the text are looked at, so that planning stays short.
   constexpr std::size_t kWindow = 200;
   std::size_t first_undone = 0;

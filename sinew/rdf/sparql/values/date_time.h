@@ -46,6 +46,8 @@ std::string zone_text(const Instant& instant);
 // `type`: kDuration, kDayTimeDuration or kYearMonthDuration.
 std::optional<Duration> parse_duration(std::string_view text, Datatype type);
 std::string to_string(const Duration& duration, Datatype type);
+// At most kMostYears long.
+bool in_range(const Duration& duration);
 
 // Months first, to the last day of the month where the day does not exist; then seconds (appendix
 // E.1).

@@ -5,9 +5,9 @@
 namespace sinew::rdf::sparql::values {
 namespace {
 
-// The value of a run of digits, which must fit in 9 of them.
+// The value of a run of digits; what is too long is out of range anyway.
 bool read_whole(std::string_view digits, std::int64_t& value) {
-  if (digits.empty() || digits.size() > 9) return false;
+  if (digits.empty() || digits.size() > 13) return false;
   value = 0;
   for (const char digit : digits) value = value * 10 + (digit - '0');
   return true;
@@ -76,7 +76,14 @@ std::optional<Duration> parse_duration(std::string_view text, Datatype type) {
     result.months = -result.months;
     result.seconds = negate(result.seconds);
   }
+  if (!in_range(result)) return std::nullopt;
   return result;
+}
+
+bool in_range(const Duration& duration) {
+  const Decimal most = Decimal::of(kMostYears * 366 * 86'400);
+  return duration.months <= kMostYears * 12 && duration.months >= -kMostYears * 12 &&
+         compare(duration.seconds, most) <= 0 && compare(duration.seconds, negate(most)) >= 0;
 }
 
 std::string to_string(const Duration& duration, Datatype type) {

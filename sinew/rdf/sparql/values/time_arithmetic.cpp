@@ -7,6 +7,10 @@ namespace {
 
 Duration negated(const Duration& duration) { return {-duration.months, negate(duration.seconds)}; }
 
+Value lasting(const Duration& duration, Datatype type) {
+  return in_range(duration) ? Value::of_duration(duration, type) : Value::error();
+}
+
 // A date stays a date: the part below a day is cut off. A time wraps around midnight.
 Value moved(const Value& instant, const Duration& by) {
   if (instant.kind == ValueKind::kTime && by.months != 0) return Value::error();
@@ -38,7 +42,7 @@ Value sum(Operator op, const Value& a, const Value& b) {
   const Duration second = op == Operator::kAdd ? b.duration() : negated(b.duration());
   const auto seconds = add(a.decimal, second.seconds);
   if (!seconds) return Value::error();
-  return Value::of_duration({a.months + second.months, *seconds}, a.type);
+  return lasting({a.months + second.months, *seconds}, a.type);
 }
 
 Value scaled(Operator op, const Value& duration, const Value& number) {
@@ -53,8 +57,7 @@ Value scaled(Operator op, const Value& duration, const Value& number) {
   const auto months = scale(Decimal::of(duration.months));
   if (!seconds || !months) return Value::error();
   const auto whole = to_int64(round(*months, Rounding::kHalfUp));
-  if (!whole || *whole > kMostYears * 12 || *whole < -kMostYears * 12) return Value::error();
-  return Value::of_duration({*whole, *seconds}, duration.type);
+  return whole ? lasting({*whole, *seconds}, duration.type) : Value::error();
 }
 
 Value ratio(const Value& a, const Value& b) {

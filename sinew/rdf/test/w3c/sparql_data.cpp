@@ -54,7 +54,7 @@ class ResultGraph {
             all(binding, "value").at(0);
       }
     }
-    std::ranges::stable_sort(rows, {}, [](const auto& entry) { return entry.first; });
+    std::ranges::sort(rows, {}, [](const auto& entry) { return entry.first; });
     for (auto& [index, row] : rows) expected.results.rows.push_back(std::move(row));
     return expected;
   }
