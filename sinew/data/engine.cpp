@@ -118,13 +118,24 @@ bool Converter::run(const void* source, void* target) const {
   blocks[0] = const_cast<char*>(static_cast<const char*>(source));
   blocks[1] = static_cast<char*>(target);
   for (std::size_t i = 0; i < scratch_.size(); ++i) blocks[i + 2] = scratch + scratch_[i];
-  if (!constants_.empty()) std::memcpy(r, constants_.data(), constants_.size() * sizeof(double));
+  for (std::size_t i = 0; i < constants_.size(); ++i) r[i] = constants_[i];
 
+  const Place* const places = places_.data();
   for (const Operation* at = operations_.data();; ++at) {
     const Operation& o = *at;
     switch (o.code) {
       case Code::kEnd:
         return true;
+      case Code::kLoadDoubles:
+        for (const Place *place = places + o.x, *end = places + o.y; place != end; ++place) {
+          r[place->number] = read_as<double>(blocks[o.a] + place->offset);
+        }
+        break;
+      case Code::kStoreDoubles:
+        for (const Place *place = places + o.x, *end = places + o.y; place != end; ++place) {
+          write_as(blocks[o.a] + place->offset, r[place->number]);
+        }
+        break;
       case Code::kLoadDouble:
         r[o.c] = read_as<double>(blocks[o.a] + o.x);
         break;
@@ -175,7 +186,12 @@ bool Converter::run(const void* source, void* target) const {
         break;
       case Code::kKernel: {
         const KernelCall& kernel = kernels_[o.x];
-        kernel.function(r + kernel.inputs, r + kernel.outputs);
+        char* const registers = reinterpret_cast<char*>(r);
+        kernel.function(
+            kernel.inputs == KernelCall::kRegisters ? registers : blocks[kernel.inputs],
+            offsets_.data() + kernel.from,
+            kernel.outputs == KernelCall::kRegisters ? registers : blocks[kernel.outputs],
+            offsets_.data() + kernel.to);
         break;
       }
       case Code::kCall:

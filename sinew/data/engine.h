@@ -51,6 +51,10 @@ class Converter {
     std::uint16_t a = 0, b = 0, c = 0;  // registers, or the blocks of a load or store
     std::uint32_t x = 0, y = 0;         // bytes from the block's begin, or an index into a table
   };
+  struct Place {  // of a double, and its register
+    std::uint32_t offset = 0;
+    std::uint32_t number = 0;
+  };
   struct Path {  // of a number behind pointers
     std::vector<std::size_t> offsets;
   };
@@ -75,17 +79,22 @@ class Converter {
   };
   struct KernelCall {
     Kernel function = nullptr;
-    std::uint16_t inputs = 0, outputs = 0;  // the first register of each
+    // Blocks, or kRegisters; and where in offsets_ the places of the inputs and outputs begin.
+    static constexpr std::size_t kRegisters = static_cast<std::size_t>(-1);
+    std::size_t inputs = kRegisters, outputs = kRegisters;
+    std::size_t from = 0, to = 0;
   };
 
   void call(const Call& call, char* const* blocks) const;
 
   std::vector<Operation> operations_;
   std::vector<double> constants_;  // the first registers
+  std::vector<Place> places_;
   std::vector<Path> paths_;
   std::vector<Guard> guards_;
   std::vector<Call> calls_;
   std::vector<KernelCall> kernels_;
+  std::vector<std::uint32_t> offsets_;
   std::vector<std::size_t> scratch_;  // where each intermediate block begins
   std::vector<std::shared_ptr<void>> libraries_;
 };

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
 
 #include "sinew/data/engine.h"
 #include "sinew/data/engine_code.h"
@@ -26,10 +28,14 @@ class ConverterBuilder {
       for (const auto& store : stage.stores) {
         if (!moves_directly(store)) compute(store.value);
       }
-      for (const auto& store : stage.stores) add_store(store);
+      for (const auto& store : stage.stores) {
+        if (!stored_.count(&store)) add_store(store);
+      }
       for (const auto& call : stage.calls) add_call(call);
     }
     add({Code::kEnd, 0, 0, 0, 0, 0, 0});
+    gather(Code::kLoadDouble, Code::kLoadDoubles);
+    gather(Code::kStoreDouble, Code::kStoreDoubles);
     return std::move(result_);
   }
 
@@ -93,8 +99,16 @@ class ConverterBuilder {
 
   void number_constants() {
     const auto& nodes = program_.graph.nodes();
+    std::vector<Node> needed;
+    for (const auto& stage : program_.stages) {
+      for (const auto& store : stage.stores) needed.push_back(store.value);
+    }
+    for (const auto& use : program_.formula_uses) {
+      needed.insert(needed.end(), use.inputs.begin(), use.inputs.end());
+    }
+    const std::vector<bool> live = program_.graph.live(needed);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (nodes[i].operation != Op::kConstant) continue;
+      if (nodes[i].operation != Op::kConstant || !live[i]) continue;
       registers_[static_cast<Node>(i)] = new_register();
       result_.constants_.push_back(nodes[i].value);
     }
@@ -171,7 +185,9 @@ class ConverterBuilder {
       const auto done = formula_results_.find(load.formula_use);
       if (done == formula_results_.end() && !ready) {
         stack.push_back({at, true});
-        for (const Node input : use.inputs) stack.push_back({input, false});
+        for (const Node input : use.inputs) {
+          if (!shared_block(use.inputs)) stack.push_back({input, false});
+        }
         return;
       }
       if (done == formula_results_.end()) add_kernel(load.formula_use, use);
@@ -194,18 +210,139 @@ class ConverterBuilder {
     }
   }
 
-  // A kernel wants its inputs one after the other: loads go there at once, other values are moved.
+  bool in_memory(Node node) const {
+    const ScalarNode& it = program_.graph.nodes()[node];
+    return it.operation == Op::kInput &&
+           program_.loads[it.a].block != ConversionProgram::Load::kOfFormula;
+  }
+
+  // Several loads (or stores) of one block in a row become one operation.
+  void gather(Code one, Code several) {
+    std::vector<Operation> result;
+    auto& operations = result_.operations_;
+    for (std::size_t i = 0; i < operations.size();) {
+      std::size_t end = i;
+      while (end < operations.size() && operations[end].code == one &&
+             operations[end].a == operations[i].a)
+        ++end;
+      if (end - i < 2) {
+        result.push_back(operations[i++]);
+        continue;
+      }
+      const auto first = static_cast<std::uint32_t>(result_.places_.size());
+      for (; i < end; ++i) result_.places_.push_back({operations[i].x, operations[i].c});
+      result.push_back({several, 0, operations[end - 1].a, 0, 0, first,
+                        static_cast<std::uint32_t>(result_.places_.size())});
+    }
+    operations = std::move(result);
+  }
+
+  // A kernel reads and writes a value's memory itself where its numbers are doubles there, all in
+  // one block; otherwise registers.
   void add_kernel(Index use_index, const ConversionProgram::FormulaUse& use) {
     const Formula& formula = library_.formulas[use.formula].formula;
-    const std::uint16_t inputs = new_register(use.inputs.size());
-    const std::uint16_t outputs = new_register(formula.outputs.size());
-    for (std::size_t i = 0; i < use.inputs.size(); ++i) {
-      add({Code::kCopy, 0, registers_.at(use.inputs[i]), 0, static_cast<std::uint16_t>(inputs + i),
-           0, 0});
+    Converter::KernelCall call;
+    call.function = find_kernel(use.formula);
+    call.from = result_.offsets_.size();
+    const auto block = shared_block(use.inputs);
+    for (const Node input : use.inputs) {
+      if (block) {
+        const auto& load = program_.loads[program_.graph.nodes()[input].a];
+        result_.offsets_.push_back(static_cast<std::uint32_t>(load.access.offsets[0]));
+        continue;
+      }
+      compute(input);
+      result_.offsets_.push_back(static_cast<std::uint32_t>(registers_.at(input) * sizeof(double)));
     }
-    result_.kernels_.push_back({find_kernel(use.formula), inputs, outputs});
+    if (block) call.inputs = *block;
+    call.to = result_.offsets_.size();
+    const auto stores = direct_stores(use_index, formula.outputs.size());
+    if (stores.empty()) {
+      const std::uint16_t first = new_register(formula.outputs.size());
+      formula_results_[use_index] = first;
+      for (std::size_t i = 0; i < formula.outputs.size(); ++i) {
+        result_.offsets_.push_back(static_cast<std::uint32_t>((first + i) * sizeof(double)));
+      }
+    } else {
+      call.outputs = stores.front()->block;
+      formula_results_[use_index] = 0;  // nobody asks for its registers
+      for (const auto* store : stores) {
+        result_.offsets_.push_back(static_cast<std::uint32_t>(store->access.offsets[0]));
+        stored_.insert(store);
+      }
+    }
+    result_.kernels_.push_back(call);
     add({Code::kKernel, 0, 0, 0, 0, static_cast<std::uint32_t>(result_.kernels_.size() - 1), 0});
-    formula_results_[use_index] = outputs;
+  }
+
+  static bool is_plain_double(const Access& access) {
+    return is_direct(access) && access.scalar == ScalarKind::kFloat64;
+  }
+
+  // The block where all of these lie as doubles; nothing where they do not, or have registers
+  // already.
+  std::optional<Index> shared_block(const std::vector<Node>& inputs) const {
+    std::optional<Index> block;
+    for (const Node input : inputs) {
+      if (!in_memory(input)) return std::nullopt;
+      const auto& load = program_.loads[program_.graph.nodes()[input].a];
+      if (!is_plain_double(load.access) || (block && *block != load.block)) return std::nullopt;
+      block = load.block;
+    }
+    return block;
+  }
+
+  // Where every output of a formula does nothing but go to one place, as a double, all in one block
+  // and one stage: these stores, by output. Otherwise none.
+  std::vector<const ConversionProgram::Store*> direct_stores(Index use_index,
+                                                             std::size_t outputs) const {
+    const auto output_of = [&](Node node) -> std::optional<Index> {
+      const ScalarNode& it = program_.graph.nodes()[node];
+      if (it.operation != Op::kInput) return std::nullopt;
+      const auto& load = program_.loads[it.a];
+      if (load.block != ConversionProgram::Load::kOfFormula || load.formula_use != use_index)
+        return std::nullopt;
+      return load.output;
+    };
+    std::vector<const ConversionProgram::Store*> stores(outputs, nullptr);
+    std::size_t found = 0;
+    for (const auto& stage : program_.stages) {
+      if (found > 0) break;
+      for (const auto& store : stage.stores) {
+        const auto output = output_of(store.value);
+        if (!output) continue;
+        if (stores[*output] || !is_plain_double(store.access)) return {};
+        stores[*output] = &store;
+        if (++found > 1 && store.block != stage.stores[first_of(stage, stores)].block) return {};
+      }
+    }
+    if (found != outputs) return {};
+    // No other operation, formula or later store may want the values.
+    for (const ScalarNode& node : program_.graph.nodes()) {
+      const int operands = node.operation == Op::kInput ? 0 : row(node.operation).operands;
+      const Node all[3] = {node.a, node.b, node.c};
+      for (int i = 0; i < operands; ++i) {
+        if (output_of(all[i])) return {};
+      }
+    }
+    for (const auto& use : program_.formula_uses) {
+      for (const Node input : use.inputs) {
+        if (output_of(input)) return {};
+      }
+    }
+    std::size_t uses = 0;
+    for (const auto& stage : program_.stages) {
+      for (const auto& store : stage.stores) uses += output_of(store.value).has_value();
+    }
+    return uses == outputs ? stores : std::vector<const ConversionProgram::Store*>{};
+  }
+
+  static std::size_t first_of(const ConversionProgram::Stage& stage,
+                              const std::vector<const ConversionProgram::Store*>& stores) {
+    for (std::size_t i = 0; i < stage.stores.size(); ++i) {
+      if (std::find(stores.begin(), stores.end(), &stage.stores[i]) != stores.end()) return i;
+    }
+    return 0;
   }
 
   void add_arithmetic(Node at, const ScalarNode& node) {
@@ -329,6 +466,7 @@ class ConverterBuilder {
   Converter result_;
   std::map<Node, std::uint16_t> registers_;
   std::map<Index, std::uint16_t> formula_results_;
+  std::set<const ConversionProgram::Store*> stored_;  // by a kernel
   std::size_t next_register_ = 0;
 };
 

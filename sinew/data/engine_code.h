@@ -10,6 +10,8 @@ enum class Converter::Code : std::uint8_t {
   kLoadDouble,   // register c = double at block a, x bytes from its begin
   kLoad,         // the same of any kind of number
   kLoadPath,     // the same behind pointers: path x
+  kLoadDoubles,  // from block a the places x to y
+  kStoreDoubles,
   kStoreDouble,  // the other way
   kStore,
   kStorePath,

@@ -34,7 +34,7 @@ std::string kernel_source(const Formula& formula) {
     const ScalarNode& node = nodes[i];
     std::string value;
     if (node.operation == ScalarOperation::kInput) {
-      value = fmt::format("in[{}]", node.a);
+      value = fmt::format("read(inputs + from[{}])", node.a);
     } else if (node.operation == ScalarOperation::kConstant) {
       value = fmt::format("{:.17g}", node.value);
     } else {
@@ -51,7 +51,7 @@ std::string kernel_source(const Formula& formula) {
     text += fmt::format("  const double v{} = {};\n", i, value);
   }
   for (std::size_t i = 0; i < formula.outputs.size(); ++i) {
-    text += fmt::format("  out[{}] = v{};\n", i, formula.outputs[i]);
+    text += fmt::format("  write(outputs + to[{}], v{});\n", i, formula.outputs[i]);
   }
   return text;
 }

@@ -11,8 +11,11 @@
 
 namespace sinew::data {
 
-// Reads the formula's inputs and writes its outputs, each one after the other.
-using Kernel = void (*)(const double* inputs, double* outputs);
+// Reads input i of the formula at inputs + from[i] and writes output i to outputs + to[i], all
+// bytes: the numbers may lie in a value's memory or among the engine's registers. Everything is
+// read before anything is written.
+using Kernel = void (*)(const char* inputs, const std::uint32_t* from, char* outputs,
+                        const std::uint32_t* to);
 
 struct KernelEntry {
   std::uint64_t fingerprint = 0;
@@ -21,7 +24,7 @@ struct KernelEntry {
 
 // Of the arithmetic itself; names do not matter.
 std::uint64_t fingerprint(const Formula& formula);
-// The body of a kernel as C++ source: statements on `in` and `out`.
+// The body of a kernel as C++ source; read(address) and write(address, number) are the caller's.
 std::string kernel_source(const Formula& formula);
 
 }  // namespace sinew::data

@@ -58,8 +58,10 @@ void write(const char* file) {
       const auto formula = data::parse_formula(declared.text, declared.text_place, inputs, outputs);
       const std::uint64_t fingerprint = data::fingerprint(formula);
       if (!written.emplace(fingerprint, true).second) continue;
-      functions += fmt::format("void formula_{:016x}(const double* in, double* out) {{\n{}}}\n\n",
-                               fingerprint, data::kernel_source(formula));
+      functions += fmt::format(
+          "void formula_{:016x}(const char* inputs, const std::uint32_t* from, char* outputs,\n"
+          "                              const std::uint32_t* to) {{\n{}}}\n\n",
+          fingerprint, data::kernel_source(formula));
       table += fmt::format("    {{0x{0:016x}ull, formula_{0:016x}}},\n", fingerprint);
     }
   }
@@ -67,6 +69,11 @@ void write(const char* file) {
   out << "// Made from metamodels/blocks/geometry.blocks; do not edit.\n"
          "#include <math.h>\n\n#include \"sinew/blocks/kernels/made_kernels.h\"\n\n"
          "namespace sinew::blocks {\nnamespace {\n\n"
+         "inline double read(const char* at) {\n  double value;\n  __builtin_memcpy(&value, at, "
+         "sizeof value);\n"
+         "  return value;\n}\n"
+         "inline void write(char* at, double value) { __builtin_memcpy(at, &value, sizeof value); "
+         "}\n\n"
       << functions << "constexpr data::KernelEntry kKernels[] = {\n"
       << table
       << "};\n\n}  // namespace\n\n"
