@@ -167,10 +167,11 @@ void Builder::write(const Closure& closure) {
   if (closure.about) add(closure.id, names_.about, closure.about);
 }
 
-void Builder::output(std::uint32_t index) {
+void Builder::output(std::uint32_t index, std::string_view name) {
   Block& block = algorithm_.blocks[index];
   if (block.output) return;
   block.output = true;
+  if (!name.empty()) block.name = name;
   // An input that is handed on keeps its place among the inputs.
   if (block.role != Role::kInput) block.index = outputs_++;
 }

@@ -62,8 +62,8 @@ class Builder {
   void closure_with_counts(std::string_view operation, std::vector<std::uint32_t> arguments,
                            std::vector<std::uint32_t> counts, const Cause& cause);
 
-  // Hands a block out, after the outputs so far.
-  void output(std::uint32_t block);
+  // Hands a block out, after the outputs so far; under another name than its own, if one is given.
+  void output(std::uint32_t block, std::string_view name = {});
 
   // Writes what is only known at the end (the schedule, the interface) and checks the whole. The
   // builder is not to be used afterwards.

@@ -260,6 +260,61 @@ constexpr Row kRows[] = {
      "columns*:jacobian-column -> jacobian:jacobian",
      "jacobian.of = columns.of; jacobian.wrt = columns.wrt; jacobian.at = columns.at",
      "6 x n, row by row"},
+    // Momentum, energy, centre of mass.
+    {"momentum-from-velocity-twist", SINEW_OWN "momentum-from-velocity-twist",
+     "inertia:rigid-body-inertia velocity-twist:velocity-twist -> momentum:momentum",
+     "velocity-twist.at = inertia.at; velocity-twist.of = inertia.of; momentum.at = inertia.at; "
+     "momentum.of = inertia.of",
+     "L = I w + h x v, p = m v + w x h"},
+    {"transform-momentum-to-proximal", SINEW_OWN "transform-momentum-to-proximal",
+     "pose:pose from:momentum -> to:momentum",
+     "from.at = pose.of; to.at = pose.wrt; to.of = from.of", "p_A = R p_B, L_A = R L_B + p x p_A"},
+    {"accumulate-momentum", SINEW_OWN "accumulate-momentum",
+     "in1:momentum in2:momentum -> out:momentum",
+     "in1.at = in2.at; out.at = in1.at; out.of = in1.of", "P = P_1 + P_2"},
+    {"kinetic-energy-from-momentum", SINEW_OWN "kinetic-energy-from-momentum",
+     "velocity-twist:velocity-twist momentum:momentum -> energy:energy",
+     "velocity-twist.at = momentum.at; velocity-twist.of = momentum.of", "T = (w . L + v . p) / 2"},
+    {"add-energy", SINEW_OWN "add-energy", "in1:energy in2:energy -> sum:energy", "", "E_1 + E_2"},
+    {"potential-energy-from-rigid-body-inertia",
+     SINEW_OWN "potential-energy-from-rigid-body-inertia",
+     "inertia:rigid-body-inertia base-acceleration:acceleration-twist -> energy:energy",
+     "base-acceleration.at = inertia.at; base-acceleration.of = inertia.of", "E = a . h = -g . h"},
+    {"center-of-mass-from-rigid-body-inertia", SINEW_OWN "center-of-mass-from-rigid-body-inertia",
+     "inertia:rigid-body-inertia -> position:position-vector",
+     "position.of = inertia.of; position.wrt = inertia.ref; position.seen = inertia.seen", "h / m"},
+    {"center-of-mass-velocity-from-momentum", SINEW_OWN "center-of-mass-velocity-from-momentum",
+     "inertia:rigid-body-inertia momentum:momentum -> velocity:linear-velocity",
+     "momentum.at = inertia.at; momentum.of = inertia.of; velocity.of = inertia.of; "
+     "velocity.wrt = inertia.ref; velocity.seen = inertia.seen",
+     "p / m"},
+    {"center-of-mass-column-revolute", SINEW_OWN "center-of-mass-column-revolute",
+     "pose:pose inertia:rigid-body-inertia total:rigid-body-inertia -> "
+     "column:linear-jacobian-column",
+     "inertia.at = pose.of; total.at = pose.wrt; column.of = total.of; column.wrt = pose.wrt; "
+     "column.seen = pose.wrt",
+     "R (z x h) / m_total"},
+    {"center-of-mass-column-prismatic", SINEW_OWN "center-of-mass-column-prismatic",
+     "pose:pose inertia:rigid-body-inertia total:rigid-body-inertia -> "
+     "column:linear-jacobian-column",
+     "inertia.at = pose.of; total.at = pose.wrt; column.of = total.of; column.wrt = pose.wrt; "
+     "column.seen = pose.wrt",
+     "z m / m_total"},
+    {"center-of-mass-columns-floating", SINEW_OWN "center-of-mass-columns-floating",
+     "pose:pose inertia:rigid-body-inertia total:rigid-body-inertia -> "
+     "columns:linear-jacobian-block",
+     "inertia.at = pose.of; total.at = pose.wrt; columns.of = total.of; columns.wrt = pose.wrt; "
+     "columns.seen = pose.wrt",
+     "(-R [h]x, R m) / m_total"},
+    {"linear-jacobian-from-columns", SINEW_OWN "linear-jacobian-from-columns",
+     "columns*:linear-jacobian-column -> jacobian:linear-jacobian",
+     "jacobian.of = columns.of; jacobian.wrt = columns.wrt; jacobian.seen = columns.seen",
+     "3 x n, row by row"},
+    {"floating-linear-jacobian-from-columns", SINEW_OWN "floating-linear-jacobian-from-columns",
+     "base:linear-jacobian-block columns*:linear-jacobian-column -> jacobian:linear-jacobian",
+     "columns.of = base.of; columns.wrt = base.wrt; columns.seen = base.seen; "
+     "jacobian.of = base.of; jacobian.wrt = base.wrt; jacobian.seen = base.seen",
+     "3 x (6 + n), row by row"},
     {"jacobian-columns-floating", SINEW_OWN "jacobian-columns-floating",
      "joint-pose:pose point-pose:pose -> columns:jacobian-block",
      "point-pose.wrt = joint-pose.wrt; columns.seen = joint-pose.wrt; columns.ref = point-pose.of; "

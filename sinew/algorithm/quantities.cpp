@@ -36,6 +36,13 @@ constexpr std::array kQuantities = {
     Quantity{"jacobian-column", 6, "UNITLESS M", "PER-M UNITLESS", kTwist},
     Quantity{"jacobian-block", 36, "UNITLESS M", "", kTwist},  // six columns, one after the other
     Quantity{"jacobian", 0, "UNITLESS M", "", kTwist},
+    Quantity{"momentum", 6, "KiloGM-M2-PER-SEC KiloGM-M-PER-SEC", "", kAt},
+    Quantity{"energy", 1, "J", "", kNone},
+    Quantity{"position-vector", 3, "M", "", kJoint},
+    Quantity{"linear-velocity", 3, "M-PER-SEC", "", kJoint},
+    Quantity{"linear-jacobian-column", 3, "M", "UNITLESS", kJoint},
+    Quantity{"linear-jacobian-block", 18, "M UNITLESS", "", kJoint},
+    Quantity{"linear-jacobian", 0, "M UNITLESS", "", kJoint},
     Quantity{"mass-matrix", 0, "KiloGM M-KiloGM KiloGM-M2", "", kNone},
 };
 

@@ -9,6 +9,7 @@
 #include "sinew/math/floating.h"
 #include "sinew/math/inertia.h"
 #include "sinew/math/jacobian.h"
+#include "sinew/math/momentum.h"
 #include "sinew/math/pose.h"
 #include "sinew/math/twist.h"
 #include "sinew/math/wrench.h"
@@ -112,6 +113,38 @@ struct Layout<JacobianBlock<S>> {
   }
   static void store(const JacobianBlock<S>& block, S* at) {
     for (int k = 0; k < 6; ++k) Layout<VelocityTwist<S>>::store(block.columns[k], at + 6 * k);
+  }
+};
+
+// Angular first.
+template <typename S>
+struct Layout<Momentum<S>> {
+  static constexpr std::uint32_t kSize = 6;
+  static Momentum<S> load(const S* at) { return {{at[0], at[1], at[2]}, {at[3], at[4], at[5]}}; }
+  static void store(const Momentum<S>& P, S* at) {
+    at[0] = P.angular.x, at[1] = P.angular.y, at[2] = P.angular.z;
+    at[3] = P.linear.x, at[4] = P.linear.y, at[5] = P.linear.z;
+  }
+};
+
+template <typename S>
+struct Layout<Vector3<S>> {
+  static constexpr std::uint32_t kSize = 3;
+  static Vector3<S> load(const S* at) { return {at[0], at[1], at[2]}; }
+  static void store(const Vector3<S>& v, S* at) { at[0] = v.x, at[1] = v.y, at[2] = v.z; }
+};
+
+// One column after the other.
+template <typename S>
+struct Layout<LinearBlock<S>> {
+  static constexpr std::uint32_t kSize = 18;
+  static LinearBlock<S> load(const S* at) {
+    LinearBlock<S> block;
+    for (int k = 0; k < 6; ++k) block.columns[k] = Layout<Vector3<S>>::load(at + 3 * k);
+    return block;
+  }
+  static void store(const LinearBlock<S>& block, S* at) {
+    for (int k = 0; k < 6; ++k) Layout<Vector3<S>>::store(block.columns[k], at + 3 * k);
   }
 };
 

@@ -8,6 +8,7 @@
 #include "sinew/math/jacobian.h"
 #include "sinew/math/joint.h"
 #include "sinew/math/layout.h"
+#include "sinew/math/momentum.h"
 
 namespace {
 
@@ -237,5 +238,70 @@ void sinew_floating_mass_matrix_from_parts(const double* const parts[], int coun
   for (int j = 0; j < n; ++j) {
     for (int r = 0; r < 6; ++r) M[r * width + 6 + j] = M[(6 + j) * width + r] = parts[1 + j][r];
     for (int c = 0; c < n; ++c) M[(6 + j) * width + 6 + c] = *parts[1 + n + j * n + c];
+  }
+}
+
+void sinew_momentum_from_velocity_twist(const double* I, const double* V, double* P) {
+  store(momentum(load<RigidBodyInertia>(I), load<VelocityTwist>(V)), P);
+}
+
+void sinew_transform_momentum_to_proximal(const double* X_AB, const double* P_B, double* P_A) {
+  store(transform_to_proximal(load<Pose>(X_AB), load<Momentum>(P_B)), P_A);
+}
+
+void sinew_accumulate_momentum(const double* a, const double* b, double* c) {
+  store(add(load<Momentum>(a), load<Momentum>(b)), c);
+}
+
+void sinew_kinetic_energy_from_momentum(const double* V, const double* P, double* T) {
+  *T = kinetic_energy(load<VelocityTwist>(V), load<Momentum>(P));
+}
+
+void sinew_add_energy(const double* a, const double* b, double* c) { *c = *a + *b; }
+
+void sinew_potential_energy_from_rigid_body_inertia(const double* I, const double* A, double* E) {
+  *E = potential_energy(load<RigidBodyInertia>(I), load<AccelerationTwist>(A));
+}
+
+void sinew_center_of_mass_from_rigid_body_inertia(const double* I, double* p) {
+  store(center_of_mass(load<RigidBodyInertia>(I)), p);
+}
+
+void sinew_center_of_mass_velocity_from_momentum(const double* I, const double* P, double* v) {
+  store(center_of_mass_velocity(load<RigidBodyInertia>(I), load<Momentum>(P)), v);
+}
+
+void sinew_center_of_mass_column_revolute(const double* X, const double* I, const double* total,
+                                          double* J) {
+  store(center_of_mass_column_revolute(load<Pose>(X), load<RigidBodyInertia>(I),
+                                       load<RigidBodyInertia>(total)),
+        J);
+}
+
+void sinew_center_of_mass_column_prismatic(const double* X, const double* I, const double* total,
+                                           double* J) {
+  store(center_of_mass_column_prismatic(load<Pose>(X), load<RigidBodyInertia>(I),
+                                        load<RigidBodyInertia>(total)),
+        J);
+}
+
+void sinew_center_of_mass_columns_floating(const double* X, const double* I, const double* total,
+                                           double* J) {
+  store(center_of_mass_columns_floating(load<Pose>(X), load<RigidBodyInertia>(I),
+                                        load<RigidBodyInertia>(total)),
+        J);
+}
+
+void sinew_linear_jacobian_from_columns(const double* const columns[], int count, double* J) {
+  for (int column = 0; column < count; ++column)
+    for (int row = 0; row < 3; ++row) J[row * count + column] = columns[column][row];
+}
+
+void sinew_floating_linear_jacobian_from_columns(const double* const columns[], int count,
+                                                 double* J) {
+  const int width = 6 + count - 1;
+  for (int row = 0; row < 3; ++row) {
+    for (int k = 0; k < 6; ++k) J[row * width + k] = columns[0][3 * k + row];
+    for (int j = 1; j < count; ++j) J[row * width + 5 + j] = columns[j][row];
   }
 }

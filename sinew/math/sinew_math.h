@@ -111,13 +111,35 @@ void sinew_jacobian_column_revolute(const double X_RC[12], const double X_RB[12]
 void sinew_jacobian_column_prismatic(const double X_RC[12], const double X_RB[12], double J[6]);
 
 /* Matrices, row by row: from `count` numbers one after the other; from `count` columns of 6. */
-void sinew_mass_matrix_from_entries(const double *const entries[], int count, double *M);
-void sinew_jacobian_from_columns(const double *const columns[], int count, double *J);
-/* The same of a floating base: first its 6 columns one after the other; or its composite inertia (10), then n
- * wrenches (6), then n x n entries. */
+void sinew_mass_matrix_from_entries(const double* const entries[], int count, double* M);
+void sinew_jacobian_from_columns(const double* const columns[], int count, double* J);
+/* The same of a floating base: first its 6 columns one after the other; or its composite inertia
+ * (10), then n wrenches (6), then n x n entries. */
 void sinew_jacobian_columns_floating(const double X_RC[12], const double X_RB[12], double J[36]);
-void sinew_floating_jacobian_from_columns(const double *const columns[], int count, double *J);
-void sinew_floating_mass_matrix_from_parts(const double *const parts[], int count, double *M);
+void sinew_floating_jacobian_from_columns(const double* const columns[], int count, double* J);
+void sinew_floating_mass_matrix_from_parts(const double* const parts[], int count, double* M);
+
+/* Momentum (angular, then linear; 6 numbers), energy, centre of mass (3). */
+void sinew_momentum_from_velocity_twist(const double I[10], const double V[6], double P[6]);
+void sinew_transform_momentum_to_proximal(const double X_AB[12], const double P_B[6],
+                                          double P_A[6]);
+void sinew_accumulate_momentum(const double a[6], const double b[6], double c[6]);
+void sinew_kinetic_energy_from_momentum(const double V[6], const double P[6], double T[1]);
+void sinew_add_energy(const double a[1], const double b[1], double c[1]);
+void sinew_potential_energy_from_rigid_body_inertia(const double I[10], const double A[6],
+                                                    double E[1]);
+void sinew_center_of_mass_from_rigid_body_inertia(const double I[10], double p[3]);
+void sinew_center_of_mass_velocity_from_momentum(const double I[10], const double P[6],
+                                                 double v[3]);
+void sinew_center_of_mass_column_revolute(const double X[12], const double I[10],
+                                          const double total[10], double J[3]);
+void sinew_center_of_mass_column_prismatic(const double X[12], const double I[10],
+                                           const double total[10], double J[3]);
+void sinew_center_of_mass_columns_floating(const double X[12], const double I[10],
+                                           const double total[10], double J[18]);
+void sinew_linear_jacobian_from_columns(const double* const columns[], int count, double* J);
+void sinew_floating_linear_jacobian_from_columns(const double* const columns[], int count,
+                                                 double* J);
 
 #ifdef __cplusplus
 }

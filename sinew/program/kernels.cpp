@@ -12,6 +12,7 @@
 #include "sinew/math/jacobian.h"
 #include "sinew/math/joint.h"
 #include "sinew/math/layout.h"
+#include "sinew/math/momentum.h"
 #include "sinew/program/kernels_many.h"
 
 namespace sinew::program {
@@ -191,6 +192,48 @@ std::vector<Kernel> make_kernels() {
       row("floating-acceleration-from-force",
           []<typename S>(const ArticulatedInertia<S>& I, const Wrench<S>& u) {
             return solve(I, u);
+          }),
+
+      // Momentum, energy, centre of mass.
+      row("momentum-from-velocity-twist",
+          []<typename S>(const RigidBodyInertia<S>& I, const VelocityTwist<S>& V) {
+            return momentum(I, V);
+          }),
+      row("transform-momentum-to-proximal",
+          []<typename S>(const Pose<S>& X_AB, const Momentum<S>& P_B) {
+            return transform_to_proximal(X_AB, P_B);
+          }),
+      row("accumulate-momentum",
+          []<typename S>(const Momentum<S>& a, const Momentum<S>& b) { return add(a, b); }),
+      row("kinetic-energy-from-momentum",
+          []<typename S>(const VelocityTwist<S>& V, const Momentum<S>& P) {
+            return kinetic_energy(V, P);
+          }),
+      row("add-energy", []<typename S>(const S& a, const S& b) { return S(a + b); }),
+      row("potential-energy-from-rigid-body-inertia",
+          []<typename S>(const RigidBodyInertia<S>& I, const AccelerationTwist<S>& A) {
+            return potential_energy(I, A);
+          }),
+      row("center-of-mass-from-rigid-body-inertia",
+          []<typename S>(const RigidBodyInertia<S>& I) { return center_of_mass(I); }),
+      row("center-of-mass-velocity-from-momentum",
+          []<typename S>(const RigidBodyInertia<S>& I, const Momentum<S>& P) {
+            return center_of_mass_velocity(I, P);
+          }),
+      row("center-of-mass-column-revolute",
+          []<typename S>(const Pose<S>& X, const RigidBodyInertia<S>& I,
+                         const RigidBodyInertia<S>& total) {
+            return center_of_mass_column_revolute(X, I, total);
+          }),
+      row("center-of-mass-column-prismatic",
+          []<typename S>(const Pose<S>& X, const RigidBodyInertia<S>& I,
+                         const RigidBodyInertia<S>& total) {
+            return center_of_mass_column_prismatic(X, I, total);
+          }),
+      row("center-of-mass-columns-floating",
+          []<typename S>(const Pose<S>& X, const RigidBodyInertia<S>& I,
+                         const RigidBodyInertia<S>& total) {
+            return center_of_mass_columns_floating(X, I, total);
           }),
 
       row("jacobian-columns-floating",

@@ -15,10 +15,10 @@ void one_after_the_other(S* const* arguments, std::span<const std::uint32_t> siz
     for (std::uint32_t k = 0; k < sizes[i]; ++k) *out++ = arguments[i][k];
 }
 
-// Arguments are columns of six numbers, or several of them, of a matrix that is written row by row.
-template <typename S>
+// Arguments are columns of so many numbers, or several of them, of a matrix that is written row by
+// row.
+template <typename S, std::uint32_t kRows>
 void as_columns(S* const* arguments, std::span<const std::uint32_t> sizes) {
-  constexpr std::uint32_t kRows = 6;
   S* const out = arguments[sizes.size() - 1];
   const std::uint32_t columns = sizes.back() / kRows;
   std::uint32_t column = 0;
@@ -83,8 +83,11 @@ std::vector<Kernel> kernels_of_many() {
   std::vector<Kernel> rows = {
       row("mass-matrix-from-entries", kNumbers, &one_after_the_other<double>,
           &one_after_the_other<Traced>),
-      row("jacobian-from-columns", kColumns, &as_columns<double>, &as_columns<Traced>),
-      row("floating-jacobian-from-columns", kAny, &as_columns<double>, &as_columns<Traced>),
+      row("jacobian-from-columns", kColumns, &as_columns<double, 6>, &as_columns<Traced, 6>),
+      row("floating-jacobian-from-columns", kAny, &as_columns<double, 6>, &as_columns<Traced, 6>),
+      row("linear-jacobian-from-columns", kAny, &as_columns<double, 3>, &as_columns<Traced, 3>),
+      row("floating-linear-jacobian-from-columns", kAny, &as_columns<double, 3>,
+          &as_columns<Traced, 3>),
       row("floating-mass-matrix-from-parts", kAny, &floating_mass_matrix<double>,
           &floating_mass_matrix<Traced>)};
   rows.back().size_of_many = &size_of_floating_mass_matrix;

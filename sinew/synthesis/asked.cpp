@@ -15,6 +15,14 @@ constexpr AskedQuantity kAsked[] = {
     {"joint-acceleration", Element::kJoint, "acceleration", "acceleration", true, true},
     {"mass-matrix", Element::kRobot, "mass-matrix", "mass-matrix", true, true},
     {"jacobian", Element::kFrame, "jacobian", "jacobian", true, false},
+    {"center-of-mass", Element::kRobot, "center-of-mass", "center-of-mass", false, true},
+    {"center-of-mass-velocity", Element::kRobot, "center-of-mass-velocity",
+     "center-of-mass-velocity", false, true},
+    {"center-of-mass-jacobian", Element::kRobot, "center-of-mass-jacobian",
+     "center-of-mass-jacobian", false, true},
+    {"momentum", Element::kRobot, "momentum", "momentum", false, true},
+    {"kinetic-energy", Element::kRobot, "kinetic-energy", "kinetic-energy", false, true},
+    {"potential-energy", Element::kRobot, "potential-energy", "potential-energy", false, true},
     {"gravity-force", Element::kJoint, "gravity-force", "gravity-force", true, true},
 };
 

@@ -24,7 +24,10 @@ math::Pose<double> placement(const Context& context, Id joint) {
 // What of a body's inertia the joint cannot tell from the predecessor's.
 Inertia indifferent_part(const Inertia& inertia, std::string_view kind) {
   if (kind == "revolute") {
-    const double a = inertia.rotational.yy;
+    // A rod's moment of inertia is its second moment along z; without it the second moments of the
+    // body, which the Newton-Euler equations are computed with, lose one of their six.
+    const math::Symmetric3<double>& I = inertia.rotational;
+    const double a = 0.5 * (I.xx + I.yy - I.zz);
     return {inertia.mass, {0, 0, inertia.first_moment.z}, {a, 0, 0, a, 0, 0}};
   }
   if (kind == "prismatic") return {0, {0, 0, 0}, inertia.rotational};

@@ -19,8 +19,9 @@ using Inertias = std::unordered_map<Id, std::array<double, 10>>;
 Inertias stated_inertias(const Context& context);
 
 // A revolute joint about z lets the predecessor carry m, h_z and a thin rod along z, I = diag(a, a,
-// 0) with a = I_yy: turning about z changes none of them. A prismatic joint lets it carry all of I,
-// since both bodies turn alike. What reaches a root that does not move is dropped.
+// 0) with a = (I_xx + I_yy - I_zz) / 2: turning about z changes none of them. A prismatic joint
+// lets it carry all of I, since both bodies turn alike. What reaches a root that does not move is
+// dropped.
 void regroup(const Context& context, Inertias& inertias);
 
 }  // namespace sinew::synthesis

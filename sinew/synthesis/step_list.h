@@ -37,7 +37,17 @@ Step forward_dynamics_step();
 
 // steps_mass_matrix.cpp
 Step composite_inertia_step();
+Step total_inertia_step();
 Step mass_matrix_step();
+
+// steps_mass.cpp
+Step own_momentum_step();
+Step momentum_step();
+Step center_of_mass_step();
+Step center_of_mass_velocity_step();
+Step center_of_mass_jacobian_step();
+Step kinetic_energy_step();
+Step potential_energy_step();
 
 // steps_jacobian.cpp
 Step jacobian_step();

@@ -30,7 +30,15 @@ const std::vector<Step>& steps() {
       drive_step(),
       forward_dynamics_step(),
       composite_inertia_step(),
+      total_inertia_step(),
       mass_matrix_step(),
+      own_momentum_step(),
+      momentum_step(),
+      kinetic_energy_step(),
+      potential_energy_step(),
+      center_of_mass_step(),
+      center_of_mass_velocity_step(),
+      center_of_mass_jacobian_step(),
       jacobian_step(),
   };
   return list;

@@ -2,6 +2,7 @@
 // column is the forces that one unit of acceleration of one joint takes, while the others are held.
 // The wrench of each joint travels inward by itself and meets the joints that it passes; entries of
 // joints on different branches are zero and cost nothing.
+#include "sinew/synthesis/composite.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/step_list.h"
 
@@ -24,7 +25,8 @@ BlockSpec at(std::string_view slot, std::string_view quantity, Id represents, Id
           .seen_by = frame};
 }
 
-// What moves with a body so far: itself, and the successors seen until now.
+}  // namespace
+
 BlockIndex composite_so_far(Context& context, Id frame, Id body) {
   const BlockIndex sum = context.board.find("composite-inertia", frame);
   if (sum != kNoIndex) return sum;
@@ -34,6 +36,8 @@ BlockIndex composite_so_far(Context& context, Id frame, Id body) {
   none.value = kZero;
   return context.make(none);
 }
+
+namespace {
 
 void configure_composite(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
@@ -200,6 +204,21 @@ Step composite_inertia_step() {
           .gives = {"composite-inertia"},
           .visitors = {{Where::kEdge,
                         {std::string(kParentIsNotRoot)},
+                        {},
+                        configure_composite,
+                        compute_composite}}};
+}
+
+Step total_inertia_step() {
+  return {.name = "total-inertia",
+          .purpose = "all that moves, and the root, as one body seen from the root",
+          .direction = Direction::kInward,
+          .expansion = std::string(kAcrossJoints),
+          .needs = {"composite-inertia", "placement", "pose-across-joint"},
+          .may_use = {},
+          .gives = {"total-inertia"},
+          .visitors = {{Where::kEdge,
+                        {std::string(kParentIsRoot)},
                         {},
                         configure_composite,
                         compute_composite}}};

@@ -179,7 +179,9 @@ Plan plan_of(const Query& query, const Resolved& resolved, std::span<const std::
 
 void hand_out(Context& context, const Resolved& resolved) {
   for (const Wanted& wanted : resolved.wanted)
-    context.builder.output(context.block(wanted.quantity->slot, wanted.element));
+    context.builder.output(
+        context.block(wanted.quantity->slot, wanted.element),
+        wanted.quantity->element == Element::kRobot ? wanted.quantity->name : std::string_view());
 }
 
 // The same robot from the world; its base's name stands for the six degrees of freedom of the base.
