@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <unordered_map>
 
+#include "sinew/rdf/isomorphism/refinement.h"
 #include "sinew/rdf/json/writer.h"
 #include "sinew/rdf/jsonld/compactor.h"
 #include "sinew/rdf/jsonld/from_rdf.h"
@@ -23,7 +25,7 @@ int rank(std::string_view key) {
 // document.
 class Arranger {
  public:
-  Arranger(json::Arena& arena, bool sorted) : arena_(arena), sorted_(sorted) {}
+  explicit Arranger(json::Arena& arena) : arena_(arena) {}
 
   void arrange(json::Value& value) {
     for (json::Value& item : value.items()) arrange(item);
@@ -32,12 +34,9 @@ class Arranger {
     const std::vector<json::Member> before(members.begin(), members.end());
     auto next = members.begin();
     for (int wanted = 0; wanted <= 3; ++wanted) {
-      const auto first = next;
       next = std::copy_if(before.begin(), before.end(), next, [&](const json::Member& member) {
         return rank(member.name()) == wanted;
       });
-      if (!sorted_) continue;
-      std::sort(first, next, [](const auto& a, const auto& b) { return a.name() < b.name(); });
     }
     value.members_were_moved();
     for (json::Member& member : value.members()) {
@@ -60,9 +59,34 @@ class Arranger {
   }
 
   json::Arena& arena_;
-  bool sorted_;
   std::unordered_map<std::string_view, std::string_view> labels_;
 };
+
+// The same order for the same graph, whatever the order and the names of blank nodes it came with.
+std::vector<graph::Quad> in_sorted_order(std::span<const graph::Quad> quads,
+                                         const graph::Terms& terms) {
+  std::unordered_map<graph::Id, std::size_t> rank_of_blank;
+  for (const graph::Id blank : rdf::ordered_blanks(quads, terms)) {
+    rank_of_blank.emplace(blank, rank_of_blank.size());
+  }
+  const auto key = [&](graph::Id id) {
+    const auto blank = rank_of_blank.find(id);
+    const bool is_literal = terms.is_literal(id);
+    return std::tuple(blank != rank_of_blank.end(),
+                      blank == rank_of_blank.end() ? 0 : blank->second,
+                      blank == rank_of_blank.end() ? terms.text(id) : std::string_view{},
+                      is_literal, is_literal ? terms.text(terms.datatype(id)) : std::string_view{},
+                      is_literal ? terms.language(id) : std::string_view{});
+  };
+  std::vector<graph::Quad> sorted(quads.begin(), quads.end());
+  std::sort(sorted.begin(), sorted.end(), [&](const graph::Quad& a, const graph::Quad& b) {
+    if (a.graph != b.graph) return key(a.graph) < key(b.graph);
+    if (a.subject != b.subject) return key(a.subject) < key(b.subject);
+    if (a.predicate != b.predicate) return key(a.predicate) < key(b.predicate);
+    return a.object != b.object && key(a.object) < key(b.object);
+  });
+  return sorted;
+}
 
 bool is_prefix_by_itself(std::string_view iri) {
   return !iri.empty() && std::string_view(":/?#[]@").find(iri.back()) != std::string_view::npos;
@@ -99,14 +123,14 @@ Writer::Writer(Writer&&) noexcept = default;
 Writer& Writer::operator=(Writer&&) noexcept = default;
 
 std::string Writer::write(std::span<const graph::Quad> quads, const graph::Terms& terms) {
+  std::vector<graph::Quad> sorted;
+  if (options_.sorted) quads = sorted = in_sorted_order(quads, terms);
   json::Arena arena(1 << 16);
-  Options options;
-  options.ordered = options_.sorted;
+  const Options options;
   const FromRdfStyle style{.typed_native_values = true, .embed_blank_nodes = true};
   json::Value expanded = FromRdf(terms, options, arena, style).document(quads);
-  Arranger(arena, options_.sorted).arrange(expanded);
+  Arranger(arena).arrange(expanded);
 
-  options.ordered = false;  // the order of the expanded document is the one we want
   ContextProcessor processor(arena, *contexts_, options);
   const json::Value local = context_of(options_, arena);
   const Context* context = processor.initial({});

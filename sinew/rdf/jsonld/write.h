@@ -22,7 +22,8 @@ struct WriteOptions {
   std::vector<std::string> contexts;  // IRIs of contexts in the catalogue; later ones win
   std::vector<std::pair<std::string, std::string>> prefixes;  // name and namespace, as "rob" and
                                                               // "https://example.org/robot/"
-  bool sorted = false;  // nodes by their IRIs, properties by theirs; else in the order of the quads
+  bool sorted = false;  // the same bytes for the same graph, whatever the order of the quads; else
+                        // nodes and properties come in the order of the quads
   std::size_t width = 100;  // columns
 };
 

@@ -118,6 +118,21 @@ TEST_F(FromQuads, ABlankNodeThatIsAListItemOfItselfIsNotLost) {
   expect_round_trip();
 }
 
+TEST_F(FromQuads, SortedTextDoesNotDependOnTheOrderOfTheQuads) {
+  read(
+      ":s :p _:x, _:y ; :q ( 2 _:x ) . _:x :p 1, \"a\"@en . _:y :p _:x . :g { :s :p _:y . _:z :p 2 "
+      ". }");
+  WriteOptions options;
+  options.sorted = true;
+  Writer writer(catalogue_, options);
+  const std::string text = writer.write(quads_, terms_);
+  for (int turn = 0; turn < 20; ++turn) {
+    std::rotate(quads_.begin(), quads_.begin() + 5, quads_.end());
+    std::swap(quads_[0], quads_[static_cast<std::size_t>(turn) % quads_.size()]);
+    EXPECT_EQ(writer.write(quads_, terms_), text);
+  }
+}
+
 TEST_F(FromQuads, ALongChainOfBlankNodesCanBeReadAgain) {
   std::string chain = ":s :p _:n0 .";
   for (int i = 0; i < 1000; ++i) {

@@ -87,10 +87,10 @@ void Evaluator::sort_rows(const Block& block, BlockState& state) {
       const int result = values::order(left[i], right[i], space_);
       if (result != 0) return block.order[i].descending ? result > 0 : result < 0;
     }
-    return false;
+    // Solutions that compare equal stay in the order in which they were found.
+    return a < b;
   };
-  // Stable: solutions that compare equal stay in the order in which they were found.
-  std::stable_sort(state.order.begin(), state.order.end(), before);
+  std::sort(state.order.begin(), state.order.end(), before);
   for (const std::size_t row : state.order) {
     if (!deliver(block, state, {state.rows.data() + row * stride, block.columns.size()})) return;
   }

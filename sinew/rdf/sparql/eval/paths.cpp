@@ -171,13 +171,20 @@ bool Evaluator::walk_sequence(const PathStep& step, std::uint32_t part, Id from,
                               NodeVisitor visit) {
   const std::uint32_t inner = plan_->paths.parts[step.first_part + part];
   if (part + 1 == step.part_count) return walk(inner, from, visit);
-  return walk(inner, from, [&](Id middle) { return walk_sequence(step, part + 1, middle, visit); });
+  return walk(inner, from, [&](Id middle) {
+    if (step.each_middle_once) {
+      if (!visited_[step.visited + part].insert(middle)) return true;
+      count_path_step();
+    }
+    return walk_sequence(step, part + 1, middle, visit);
+  });
 }
 
 // Breadth first; each node once.
 bool Evaluator::walk_closure(const PathStep& step, Id from, NodeVisitor visit) {
   VisitedSet& reached = visited_[step.visited];
   reached.begin();
+  for (std::uint32_t i = 0; i < step.middle_count; ++i) visited_[step.first_middle + i].begin();
   const std::uint32_t inner = plan_->paths.parts[step.first_part];
   if (step.kind != Kind::kOneOrMore) {
     reached.insert(from);

@@ -7,6 +7,21 @@ namespace {
 
 using Kind = syntax::Path::Kind;
 
+// Gives sets of visited nodes to the sequences that are walked again and again by the closure that
+// this is a part of.
+void add_middles(std::uint32_t index, PathSteps& into) {
+  PathStep& step = into.steps[index];
+  if (step.kind != Kind::kSequence && step.kind != Kind::kAlternative) return;
+  if (step.kind == Kind::kSequence) {
+    step.each_middle_once = true;
+    step.visited = into.visited_count;
+    into.visited_count += step.part_count - 1;
+  }
+  for (std::uint32_t i = 0; i < step.part_count; ++i) {
+    add_middles(into.parts[step.first_part + i], into);
+  }
+}
+
 std::uint32_t compile(const syntax::Path& path, bool inverse, PathSteps& into) {
   if (path.kind == Kind::kInverse) return compile(path.parts[0], !inverse, into);
   std::vector<std::uint32_t> parts;
@@ -31,12 +46,12 @@ std::uint32_t compile(const syntax::Path& path, bool inverse, PathSteps& into) {
       break;
     case Kind::kZeroOrMore:
     case Kind::kZeroOrOne:
-      step.matches_zero = true;
-      step.visited = into.visited_count++;
-      break;
     case Kind::kOneOrMore:
-      step.matches_zero = zero(parts[0]);
+      step.matches_zero = path.kind != Kind::kOneOrMore || zero(parts[0]);
       step.visited = into.visited_count++;
+      step.first_middle = into.visited_count;
+      add_middles(parts[0], into);
+      step.middle_count = into.visited_count - step.first_middle;
       break;
     case Kind::kNegated:
       step.forward = inverse ? path.backward : path.forward;

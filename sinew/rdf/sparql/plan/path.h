@@ -15,9 +15,17 @@ struct PathStep {
   Kind kind = Kind::kIri;     // never kInverse: inversion is pushed to the leaves
   bool inverse = false;       // kIri: walked from object to subject
   bool matches_zero = false;  // reaches the node where it begins, whatever the graph holds
-  std::uint32_t visited = 0;  // kZeroOrMore, kOneOrMore, kZeroOrOne: which set of visited nodes
+  // kZeroOrMore, kOneOrMore, kZeroOrOne: which set of visited nodes. kSequence below one of these:
+  // the set for the nodes behind its first part, followed by those for the next ones.
+  std::uint32_t visited = 0;
+  // kSequence: below * + or ?, where only which nodes are reached counts, not how often. A middle
+  // node that was reached before leads nowhere new.
+  bool each_middle_once = false;
   graph::Id iri = {};
   std::uint32_t first_part = 0, part_count = 0;
+  // kZeroOrMore, kOneOrMore, kZeroOrOne: the sets of the sequences below it, up to the next such
+  // step; they are emptied with its own.
+  std::uint32_t first_middle = 0, middle_count = 0;
   // kNegated: what no edge may be, by direction.
   bool walks_forward = false, walks_backward = false;
   std::vector<graph::Id> forward, backward;

@@ -1,8 +1,10 @@
+// Prepared queries: parameters, plans, and running from visitors and threads.
 #include "sinew/rdf/sparql/prepared.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <atomic>
+#include <thread>
 
 #include "sinew/base/error.h"
 #include "sinew/rdf/sparql/test/table.h"
@@ -12,7 +14,6 @@ namespace {
 
 // A chain of three links: frames on links (simplices), links in joints (between-attachments).
 constexpr std::string_view kChain = R"(
-  @prefix : <http://e/> .
   :link1 :simplices :f1a , :f1b .
   :link2 :simplices :f2a , :f2b .
   :link3 :simplices :f3a .
@@ -41,37 +42,125 @@ TEST(Prepared, AskStopsAtTheFirst) {
       ASK { FILTER NOT EXISTS { ?node ^:simplices/:simplices ?x . ?j :between-attachments ?x, ?y
                                 FILTER(?x != ?y && ?x != ?node) } })",
                             {"node"});
+  EXPECT_TRUE(leaf->is_ask());
   EXPECT_FALSE(leaf->ask(table.store.view(), {table.id(":f1a")}));
   EXPECT_TRUE(leaf->ask(table.store.view(), {table.id(":f3a")}));
 }
 
-TEST(Prepared, PathsReachEverythingOnce) {
+TEST(Prepared, ParametersKeepTheirValueEverywhere) {
   Table table(kChain);
-  const auto query = prepare(table.store, R"(PREFIX : <http://e/>
-      SELECT ?f WHERE { ?node (^:simplices/:simplices|^:between-attachments/:between-attachments)+ ?f }
-      )",
-                             {"node"});
-  EXPECT_EQ(table.rows(*query, {table.id(":f1a")}),
-            (Rows{{":f1a"}, {":f1b"}, {":f2a"}, {":f2b"}, {":f3a"}}));
+  const std::vector<graph::Id> frame = {table.id(":f1a")};
+  const auto rows = [&](const char* where) {
+    return table.rows(*prepare(table.store, std::string("PREFIX : <http://e/> ") + where, {"f"}),
+                      frame);
+  };
+  EXPECT_EQ(rows("SELECT ?f ?l { ?l :simplices ?f }"), (Rows{{":f1a", ":link1"}}));
+  EXPECT_EQ(rows("SELECT ?l { { ?l :simplices ?x FILTER(?x = ?f) } }"), (Rows{{":link1"}}));
+  EXPECT_EQ(rows("SELECT ?n { { SELECT (COUNT(?x) AS ?n) { ?l :simplices ?f , ?x } } }"),
+            (Rows{{"2"}}));
+  EXPECT_EQ(rows("SELECT ?x { :link1 :simplices ?x FILTER NOT EXISTS { FILTER(?x = ?f) } }"),
+            (Rows{{":f1b"}}));
+  EXPECT_EQ(rows("SELECT ?f (COUNT(*) AS ?n) { ?l :simplices ?f , ?x } GROUP BY ?f"),
+            (Rows{{":f1a", "2"}}));
+  // A parameter that the query does not mention is allowed.
+  EXPECT_EQ(rows("SELECT ?x { :link3 :simplices ?x }"), (Rows{{":f3a"}}));
 }
 
-TEST(Prepared, OptionalLeavesUnbound) {
+TEST(Prepared, ParametersMustBeGiven) {
   Table table(kChain);
-  const auto query = prepare(table.store, R"(PREFIX : <http://e/>
-      SELECT ?f ?label WHERE { :link1 :simplices ?f OPTIONAL { ?f :label ?label } })");
-  EXPECT_EQ(table.rows(*query, {}), (Rows{{":f1a", "\"base\""}, {":f1b", "-"}}));
+  const auto query = prepare(table.store, "SELECT ?x { ?a ?b ?x }", {"a", "b"});
+  EXPECT_THROW(query->select(table.store.view(), {table.id(":a")}, [](auto) { return true; }),
+               Error);
 }
 
-TEST(Prepared, UnionValuesAndBind) {
+TEST(Prepared, TheVisitorStopsTheQuery) {
   Table table(kChain);
-  const auto query = prepare(table.store, R"(PREFIX : <http://e/>
-      SELECT ?f ?from WHERE { VALUES ?from { :link2 :link3 }
-        { ?from :simplices ?f } UNION { BIND(:f1a AS ?f) } })");
-  EXPECT_EQ(table.rows(*query, {}), (Rows{{":f1a", ":link2"},
-                                          {":f1a", ":link3"},
-                                          {":f2a", ":link2"},
-                                          {":f2b", ":link2"},
-                                          {":f3a", ":link3"}}));
+  const auto query = prepare(table.store, "SELECT ?s { ?s ?p ?o }");
+  std::size_t visited = 0;
+  EXPECT_EQ(query->select(table.store.view(), {}, [&](auto) { return ++visited < 3; }), 3u);
+  EXPECT_EQ(visited, 3u);
+}
+
+TEST(Prepared, TheVisitorMayRunTheSameQueryAndAddToTheStore) {
+  Table table(kChain);
+  const auto next = prepare(table.store, R"(PREFIX : <http://e/>
+      SELECT ?child { ?l :simplices ?node , ?near . ?j :between-attachments ?near , ?child .
+                      FILTER(?near != ?child && ?node != ?near) })",
+                            {"node"});
+  std::vector<std::string> reached;
+  graph::Transaction transaction = table.store.begin();
+  const std::function<void(graph::Id)> walk = [&](graph::Id node) {
+    next->select(transaction.view(), {node}, [&](std::span<const graph::Id> row) {
+      const graph::Id child = row[0];
+      reached.push_back(table.name(child));
+      transaction.add({node, table.id(":leads-to"), child});
+      walk(child);
+      return true;
+    });
+  };
+  walk(table.id(":f1a"));
+  transaction.commit();
+  EXPECT_EQ(reached, (std::vector<std::string>{":f2a", ":f3a"}));
+  EXPECT_EQ(table.rows("SELECT ?x { :f1a :leads-to+ ?x }"), (Rows{{":f2a"}, {":f3a"}}));
+}
+
+TEST(Prepared, ComputedTermsInRowsAreTermsOfTheStore) {
+  Table table(kChain);
+  const auto query =
+      prepare(table.store, "SELECT (STRLEN(STR(?x)) AS ?n) (CONCAT(\"a\", \"b\") AS ?t) {}", {"x"});
+  EXPECT_EQ(table.rows(*query, {table.id(":f1a")}), (Rows{{"12", "\"ab\""}}));
+}
+
+TEST(Prepared, PlansAnewWhenTheGraphHasGrown) {
+  Table table;
+  const auto query = prepare(
+      table.store, "PREFIX : <http://e/> SELECT ?x { ?x :often ?n . ?x :rare 1 . ?x :common ?c }");
+  graph::Terms& terms = table.store.terms();
+  graph::Transaction transaction = table.store.begin();
+  for (int i = 0; i < 2000; ++i) {
+    const graph::Id node = terms.iri("http://e/n" + std::to_string(i));
+    transaction.add({node, table.id(":often"), terms.integer(i)});
+    transaction.add({node, table.id(":common"), terms.integer(i)});
+    if (i == 7) transaction.add({node, table.id(":rare"), terms.integer(1)});
+  }
+  transaction.commit();
+  EXPECT_EQ(table.rows(*query, {}), (Rows{{":n7"}}));
+  const std::string plan = query->explain(terms);
+  EXPECT_LT(plan.find("rare"), plan.find("often")) << plan;
+}
+
+TEST(Prepared, RunsInManyThreadsAtOnce) {
+  Table table(kChain);
+  const auto query = prepare(
+      table.store, "PREFIX : <http://e/> SELECT ?x { ?f (^:simplices/:simplices)+ ?x }", {"f"});
+  const graph::Snapshot snapshot = table.store.snapshot();
+  std::atomic<std::size_t> rows = 0;
+  std::vector<std::thread> threads;
+  const graph::Id start = table.id(":f2a");
+  for (int i = 0; i < 12; ++i) {
+    threads.emplace_back([&] {
+      for (int k = 0; k < 200; ++k) {
+        rows += query->select(snapshot, {start}, [](auto) { return true; });
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(rows, 12u * 200 * 2);
+}
+
+TEST(Prepared, OnlySelectAndAsk) {
+  Table table;
+  EXPECT_THROW(prepare(table.store, "CONSTRUCT WHERE { ?s ?p ?o }"), Error);
+}
+
+TEST(QueryCache, PreparesATextOnce) {
+  Table table(kChain);
+  QueryCache cache(table.store);
+  const auto first = cache.prepare("SELECT ?x { ?f ?p ?x }", {"f"});
+  EXPECT_EQ(cache.prepare("SELECT ?x { ?f ?p ?x }", {"f"}), first);
+  EXPECT_NE(cache.prepare("SELECT ?x { ?f ?p ?x }", {"f", "p"}), first);
+  EXPECT_NE(cache.prepare("SELECT ?x { ?f ?p ?x }", {"f"}, graph::Dataset::kDefault), first);
+  EXPECT_EQ(cache.size(), 3u);
 }
 
 TEST(Prepared, ErrorsSayLineAndColumn) {

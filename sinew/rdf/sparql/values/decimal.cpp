@@ -163,7 +163,9 @@ std::optional<Decimal> divide(const Decimal& left, const Decimal& right) {
     if (last <= -5) --quotient;
     return checked({quotient, scale});
   }
-  return std::nullopt;
+  // No room for a digit to round by: only what divides without remainder.
+  if (a.scale < b.scale || a.coefficient % b.coefficient != 0) return std::nullopt;
+  return checked({a.coefficient / b.coefficient, a.scale - b.scale});
 }
 
 Decimal negate(const Decimal& a) {
