@@ -56,7 +56,12 @@ std::vector<std::uint32_t> writers(const Terms& terms, const Algorithm& algorith
     for_each_argument(closure, [&](const Port& port, std::uint32_t index) {
       if (port.direction != Direction::kOut) return;
       const Block& block = algorithm.blocks[index];
-      if (block.role == Role::kInput || block.role == Role::kConstant)
+      if (closure.op->external && block.role != Role::kInput)
+        report.error({}, text(terms, block.id),
+                     fmt::format("{} is {} but {} fills it from outside", block.name,
+                                 to_string(block.role), describe(terms, closure)),
+                     "what comes from outside is an input");
+      if (!closure.op->external && (block.role == Role::kInput || block.role == Role::kConstant))
         report.error({}, text(terms, block.id),
                      fmt::format("{} is {} but {} writes it", block.name, to_string(block.role),
                                  describe(terms, closure)),
@@ -83,7 +88,11 @@ void check_order(const Terms& terms, const Algorithm& algorithm, Report& report)
                    describe(terms, closure) + " is in the schedule twice", "once is right");
     for_each_argument(closure, [&](const Port& port, std::uint32_t index) {
       const Block& block = algorithm.blocks[index];
-      if (port.direction != Direction::kIn || block.role != Role::kInternal) return;
+      if (port.direction != Direction::kIn) return;
+      // An input that a closure fills (`read`) is there once that has been done.
+      if (block.role != Role::kInternal &&
+          !(block.role == Role::kInput && writer[index] != kNoIndex))
+        return;
       if (writer[index] == kNoIndex)
         report.error(
             {}, text(terms, block.id),
@@ -166,7 +175,7 @@ void check_closure(const Terms& terms, const Algorithm& algorithm, const Closure
   bool typed = true;
   for_each_argument(closure, [&](const Port& port, std::uint32_t index) {
     const Block& block = algorithm.blocks[index];
-    if (port.quantity == block.quantity->name) return;
+    if (port.quantity == kAnyQuantity || port.quantity == block.quantity->name) return;
     typed = false;
     report.error({}, text(terms, closure.id),
                  fmt::format("{}: {} is {}, a {}", describe(terms, closure), port.name, block.name,

@@ -31,6 +31,14 @@ struct Block {
   std::vector<double> value;  // of constants, and first value of states
 };
 
+// What an external closure must know beside its ports: "interface", "lower", ... A literal's text
+// or an IRI.
+struct Property {
+  std::string name;  // short name of the property
+  std::string value;
+  friend auto operator<=>(const Property&, const Property&) = default;
+};
+
 struct Closure {
   graph::Id id;
   const Operator* op = nullptr;
@@ -38,6 +46,7 @@ struct Closure {
   std::vector<std::uint32_t> counts;     // how many arguments each port has; empty: one each
   graph::Id step;                        // that made it
   graph::Id about;                       // the model element that it was made for
+  std::vector<Property> properties;      // of an external closure, sorted
 };
 
 struct Algorithm {

@@ -333,6 +333,19 @@ constexpr Row kRows[] = {
      "base-wrenches.at = inertia.at", "(6 + n) x (6 + n), row by row"},
 };
 
+// External operators. What `read` writes are inputs of the algorithm: it stands for the caller. The
+// others write nothing.
+constexpr Row kExternalRows[] = {
+    {"read", SINEW_OWN "read", "-> quantity*:any", "", "measurements of the robot sa:interface"},
+    {"write", SINEW_OWN "write", "quantity*:any ->", "", "commands to the robot sa:interface"},
+    {"log", SINEW_OWN "log", "quantity*:any ->", "", "one row for the recorder, under sa:label"},
+    {"check-range", SINEW_OWN "check-range", "quantity*:any ->", "",
+     "sa:lower <= every number <= sa:upper; otherwise sa:action"},
+    {"check-flag", SINEW_OWN "check-flag", "quantity*:any ->", "",
+     "every number is 0; otherwise sa:action"},
+    {"probe-time", SINEW_OWN "probe-time", "", "", "how long into the cycle, under sa:label"},
+};
+
 [[noreturn]] void fault(const Row& row, std::string_view what) {
   throw std::logic_error("operator catalogue, row " + std::string(row.name) + ": " +
                          std::string(what));
@@ -359,7 +372,8 @@ void parse_ports(const Row& row, Operator& op) {
     std::string_view name = take(quantity, ":");
     const bool many = name.ends_with('*');
     if (many) name.remove_suffix(1);
-    if (find_quantity(quantity) == nullptr) fault(row, "unknown quantity");
+    if (find_quantity(quantity) == nullptr && !(op.external && quantity == kAnyQuantity))
+      fault(row, "unknown quantity");
     op.ports.push_back(
         {std::string(name), space + std::string(name), std::string(quantity), direction, many});
   }
@@ -401,17 +415,20 @@ struct Catalogue {
   std::unordered_map<std::string_view, const Operator*> by_name, by_iri;
 
   Catalogue() {
-    all.reserve(std::size(kRows));
-    for (const Row& row : kRows) {
-      Operator& op =
-          all.emplace_back(Operator{row.name, std::string(row.iri), row.formula, {}, {}});
-      parse_ports(row, op);
-      parse_rules(row, op);
-    }
+    all.reserve(std::size(kRows) + std::size(kExternalRows));
+    for (const Row& row : kRows) add(row, false);
+    for (const Row& row : kExternalRows) add(row, true);
     for (const Operator& op : all) {
       if (!by_name.emplace(op.name, &op).second || !by_iri.emplace(op.iri, &op).second)
         throw std::logic_error("operator catalogue: two rows for " + std::string(op.name));
     }
+  }
+
+  void add(const Row& row, bool external) {
+    Operator& op =
+        all.emplace_back(Operator{row.name, std::string(row.iri), row.formula, {}, {}, external});
+    parse_ports(row, op);
+    parse_rules(row, op);
   }
 };
 

@@ -3,6 +3,11 @@
 // whenever a closure is made and the validator whenever an algorithm comes from elsewhere. The
 // numeric function of a row is found by its name in sinew/program/kernels.cpp; a new operator is a
 // new row and a new kernel.
+//
+// An *external* operator is no function of its arguments: it speaks to the world (a robot, a log, a
+// clock) and is carried out by the host around the pure program (program/host_plan.h). Its closures
+// stand in the schedule like any other, so that a query finds them and an update weaves them; what
+// else it must know (which interface, which limits) are further properties of the closure.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +22,13 @@ namespace sinew::algorithm {
 
 enum class Direction : std::uint8_t { kIn, kOut };
 
+// Of a port that takes data blocks of whatever quantity: only external operators have one.
+inline constexpr std::string_view kAnyQuantity = "any";
+
 struct Port {
   std::string name;      // "in1"
   std::string iri;       // the property that links a closure to its data block
-  std::string quantity;  // a row of quantities.cpp
+  std::string quantity;  // a row of quantities.cpp, or kAnyQuantity
   Direction direction = Direction::kIn;
   bool many = false;  // takes an ordered list of data blocks, one argument each
 };
@@ -41,6 +49,7 @@ struct Operator {
   std::string_view formula;  // what it computes
   std::vector<Port> ports;   // inputs first
   std::vector<FrameRule> rules;
+  bool external = false;
 };
 
 std::span<const Operator> operators();

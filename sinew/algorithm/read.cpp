@@ -201,8 +201,31 @@ class Reader {
     }
     closure.step = one(id, word_.sa("step"), "sa:step");
     closure.about = one(id, word_.sa("about"), "sa:about");
+    if (closure.op->external) read_properties(closure);
     closures_.emplace(id, static_cast<std::uint32_t>(result_.closures.size()));
     result_.closures.push_back(std::move(closure));
+  }
+
+  // Everything that is said of an external closure beside its ports. A list is its numbers or
+  // words, separated by spaces.
+  void read_properties(Closure& closure) {
+    view_.match_in(closure.id, {}, {}, result_.id, [&](const Quad& quad) {
+      const std::string_view iri = terms_.text(quad.predicate);
+      const bool known = quad.predicate == type_ || quad.predicate == word_.sa("step") ||
+                         quad.predicate == word_.sa("about") ||
+                         std::any_of(closure.op->ports.begin(), closure.op->ports.end(),
+                                     [&](const Port& port) { return port.iri == iri; });
+      if (known) return true;
+      std::string value = text(quad.object);
+      if (quad.object == nil_ || one(quad.object, first_, "rdf:first")) {
+        value.clear();
+        for (const Id item : list(closure.id, quad.object))
+          value += (value.empty() ? "" : " ") + text(item);
+      }
+      closure.properties.push_back({std::string(short_name(iri)), std::move(value)});
+      return true;
+    });
+    std::sort(closure.properties.begin(), closure.properties.end());
   }
 
   void read_schedule() {

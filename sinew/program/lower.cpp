@@ -51,17 +51,25 @@ Variable variable_of(const graph::Terms& terms, const algorithm::Block& block) {
 
 Program lower(const graph::View& view, graph::Id algorithm, std::string_view name,
               const graph::Places* places) {
-  const algorithm::Algorithm model = algorithm::read_checked(view, algorithm, places);
-  const graph::Terms& terms = view.terms();
+  return lower(algorithm::read_checked(view, algorithm, places), view.terms(), name);
+}
+
+Program lower(const algorithm::Algorithm& model, const graph::Terms& terms, std::string_view name) {
   Program program;
   program.name = name;
-  program.iri = text(terms, algorithm);
+  program.iri = text(terms, model.id);
   program.variables.reserve(model.blocks.size());
   for (const algorithm::Block& block : model.blocks)
     program.variables.push_back(variable_of(terms, block));
   program.closures.reserve(model.schedule.size());
   for (const std::uint32_t scheduled : model.schedule) {
     const algorithm::Closure& closure = model.closures[scheduled];
+    if (closure.op->external) {
+      for (const std::uint32_t taken : closure.arguments)
+        if (program.variables[taken].role == Role::kInternal)
+          program.variables[taken].output = true;
+      continue;
+    }
     program.schedule.push_back(static_cast<std::uint32_t>(program.closures.size()));
     program.closures.push_back({std::string(closure.op->name), text(terms, closure.id),
                                 text(terms, closure.step), text(terms, closure.about),

@@ -16,6 +16,7 @@ TEST(Operators, EachIsFoundByItsNameAndByItsIri) {
 
 TEST(Operators, HaveTheirInputsFirstAndExactlyOneOutputLast) {
   for (const Operator& op : operators()) {
+    if (op.external) continue;
     ASSERT_FALSE(op.ports.empty()) << op.name;
     for (std::size_t i = 0; i < op.ports.size(); ++i)
       EXPECT_EQ(op.ports[i].direction == Direction::kOut, i + 1 == op.ports.size()) << op.name;
@@ -41,6 +42,7 @@ TEST(Operators, StateTheirFrameRulesAsText) {
 // of an operator whose meaning could be chosen at will.
 TEST(Operators, TieEverySymbolOfTheirOutputToAnInput) {
   for (const Operator& op : operators()) {
+    if (op.external) continue;
     const auto out = static_cast<std::uint8_t>(op.ports.size() - 1);
     const Quantity& quantity = *find_quantity(op.ports[out].quantity);
     for (const Attribute attribute :
