@@ -43,6 +43,11 @@ constexpr std::array kQuantities = {
     Quantity{"linear-jacobian-column", 3, "M", "UNITLESS", kJoint},
     Quantity{"linear-jacobian-block", 18, "M UNITLESS", "", kJoint},
     Quantity{"linear-jacobian", 0, "M UNITLESS", "", kJoint},
+    // Of hybrid dynamics: force times acceleration; how many times a unit effect (of a unit
+    // constraint force, of a driver).
+    Quantity{"acceleration-energy", 1, "N-M-PER-SEC2", "", kNone},
+    Quantity{"magnitude", 1, "UNITLESS", "", kNone},
+    Quantity{"constraint-magnitudes", 0, "UNITLESS", "", kNone},
     Quantity{"mass-matrix", 0, "KiloGM M-KiloGM KiloGM-M2", "", kNone},
 };
 

@@ -141,6 +141,37 @@ void sinew_linear_jacobian_from_columns(const double* const columns[], int count
 void sinew_floating_linear_jacobian_from_columns(const double* const columns[], int count,
                                                  double* J);
 
+/* Hybrid dynamics. Through a joint that gives way: qdd = e / D and F - U qdd. */
+void sinew_subtract_wrench(const double a[6], const double b[6], double c[6]);
+void sinew_add_joint_force(const double a[1], const double b[1], double c[1]);
+void sinew_add_floating_force(const double a[6], const double b[6], double c[6]);
+void sinew_joint_acceleration_from_drive(const double e[1], const double D[1], double qdd[1]);
+void sinew_release_wrench(const double F[6], const double U[6], const double qdd[1], double F_a[6]);
+
+/* Acceleration energy [N m/s^2]: F . A; the sum of e_j qdd_j, first all e, then all qdd. */
+void sinew_acceleration_energy_of_wrench(const double F[6], const double A[6], double E[1]);
+void sinew_acceleration_energy_of_joint_forces(const double* const parts[], int count, double* E);
+void sinew_acceleration_energy_of_floating_force(const double e[6], const double qdd[6],
+                                                 double E[1]);
+void sinew_add_acceleration_energy(const double a[1], const double b[1], double c[1]);
+void sinew_subtract_acceleration_energy(const double a[1], const double b[1], double c[1]);
+
+/* Magnitudes x of n constraint forces, L x = r: the lower triangle of L row by row, r, and the
+ * policy's number; n is at most 24 (truncated: 12). One of them: the vector, then a factor for each
+ * number. */
+void sinew_constraint_magnitudes_in_order(const double* const parts[], int count, double* x);
+void sinew_constraint_magnitudes_damped(const double* const parts[], int count, double* x);
+void sinew_constraint_magnitudes_truncated(const double* const parts[], int count, double* x);
+void sinew_constraint_magnitude(const double* const parts[], int count, double* x);
+
+/* Sums of what is in the first half of the parts times what is in the second half. */
+void sinew_weigh_magnitudes(const double* const parts[], int count, double* sum);
+void sinew_weigh_joint_forces(const double* const parts[], int count, double* sum);
+void sinew_weigh_floating_forces(const double* const parts[], int count, double* sum);
+/* The largest s in [0, 1], coming from 1, with |a_j + s b_j| <= l_j for every j, or 0: all a, all
+ * b, all l. */
+void sinew_scale_within_limits(const double* const parts[], int count, double* s);
+
 #ifdef __cplusplus
 }
 #endif

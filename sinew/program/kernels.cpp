@@ -8,11 +8,13 @@
 
 #include "sinew/math/articulated_inertia.h"
 #include "sinew/math/floating.h"
+#include "sinew/math/hybrid_dynamics.h"
 #include "sinew/math/inertia.h"
 #include "sinew/math/jacobian.h"
 #include "sinew/math/joint.h"
 #include "sinew/math/layout.h"
 #include "sinew/math/momentum.h"
+#include "sinew/program/kernels_constraints.h"
 #include "sinew/program/kernels_many.h"
 
 namespace sinew::program {
@@ -248,8 +250,31 @@ std::vector<Kernel> make_kernels() {
           []<typename S>(const Pose<S>& X_RC, const Pose<S>& X_RB) {
             return jacobian_column_prismatic(X_RC, X_RB);
           }),
+
+      // Hybrid dynamics.
+      row("subtract-wrench",
+          []<typename S>(const Wrench<S>& a, const Wrench<S>& b) { return subtract(a, b); }),
+      row("add-joint-force", []<typename S>(const S& a, const S& b) { return S(a + b); }),
+      row("add-floating-force",
+          []<typename S>(const Wrench<S>& a, const Wrench<S>& b) { return add(a, b); }),
+      row("joint-acceleration-from-drive",
+          []<typename S>(const S& e, const S& D) { return S(e / D); }),
+      row("release-wrench", []<typename S>(const Wrench<S>& F, const Wrench<S>& U,
+                                           const S& qdd) { return release(F, U, qdd); }),
+      row("acceleration-energy-of-wrench",
+          []<typename S>(const Wrench<S>& F, const AccelerationTwist<S>& A) {
+            return acceleration_energy(F, A);
+          }),
+      row("acceleration-energy-of-floating-force",
+          []<typename S>(const Wrench<S>& F, const AccelerationTwist<S>& A) {
+            return acceleration_energy(F, A);
+          }),
+      row("add-acceleration-energy", []<typename S>(const S& a, const S& b) { return S(a + b); }),
+      row("subtract-acceleration-energy",
+          []<typename S>(const S& a, const S& b) { return S(a - b); }),
   };
   for (const Kernel& kernel : kernels_of_many()) rows.push_back(kernel);
+  for (const Kernel& kernel : constraint_kernels()) rows.push_back(kernel);
   std::sort(rows.begin(), rows.end(),
             [](const Kernel& a, const Kernel& b) { return a.operation < b.operation; });
   return rows;
