@@ -37,6 +37,9 @@ constexpr std::array kQuantities = {
     Quantity{"jacobian-block", 36, "UNITLESS M", "", kTwist},  // six columns, one after the other
     Quantity{"jacobian", 0, "UNITLESS M", "", kTwist},
     Quantity{"momentum", 6, "KiloGM-M2-PER-SEC KiloGM-M-PER-SEC", "", kAt},
+    Quantity{"momentum-column", 6, "KiloGM-M2 M-KiloGM", "M-KiloGM KiloGM", kAt},
+    Quantity{"momentum-block", 36, "KiloGM-M2 M-KiloGM", "", kAt},
+    Quantity{"momentum-matrix", 0, "KiloGM-M2 M-KiloGM", "", kAt},
     Quantity{"energy", 1, "J", "", kNone},
     Quantity{"position-vector", 3, "M", "", kJoint},
     Quantity{"linear-velocity", 3, "M-PER-SEC", "", kJoint},

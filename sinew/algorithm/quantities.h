@@ -11,8 +11,8 @@ namespace sinew::algorithm {
 // The symbols that give a quantity its meaning. For a pose they are frames: X_AB is the pose *of* B
 // *with respect to* A. For motion and force, `of` and `wrt` are bodies, `seen_by` is the frame that
 // gives the directions, and `reference` the frame whose origin is the point that the linear part
-// (or the moment) is about. For a joint's quantities, `of` and `wrt` are the same as in the twist
-// or pose that they make.
+// (or the moment) is about; a body there stands for its centre of mass. For a joint's quantities,
+// `of` and `wrt` are the same as in the twist or pose that they make.
 enum class Attribute : std::uint8_t { kOf, kWrt, kReference, kSeenBy };
 inline constexpr std::size_t kAttributes = 4;
 std::string_view to_string(

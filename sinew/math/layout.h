@@ -148,6 +148,20 @@ struct Layout<LinearBlock<S>> {
   }
 };
 
+// One column after the other.
+template <typename S>
+struct Layout<MomentumBlock<S>> {
+  static constexpr std::uint32_t kSize = 36;
+  static MomentumBlock<S> load(const S* at) {
+    MomentumBlock<S> block;
+    for (int k = 0; k < 6; ++k) block.columns[k] = Layout<Momentum<S>>::load(at + 6 * k);
+    return block;
+  }
+  static void store(const MomentumBlock<S>& block, S* at) {
+    for (int k = 0; k < 6; ++k) Layout<Momentum<S>>::store(block.columns[k], at + 6 * k);
+  }
+};
+
 // J (xx xy xz yy yz zz), H row by row, M (as J).
 template <typename S>
 struct Layout<ArticulatedInertia<S>> {

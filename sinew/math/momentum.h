@@ -95,4 +95,53 @@ LinearBlock<S> center_of_mass_columns_floating(const Pose<S>& X_RC, const RigidB
   return block;
 }
 
+// The same momentum about another point, which is at c seen from the frame: L - c x p.
+template <typename S>
+Momentum<S> about(const Momentum<S>& P, const Vector3<S>& c) {
+  return {P.angular - cross(c, P.linear), P.linear};
+}
+
+// The momentum of all mass about its centre c, seen from R, for one unit of velocity of a joint
+// about, or along, z of frame C that moves the inertia I (seen from C). Orin and Goswami 2008,
+// "Centroidal momentum matrix of a humanoid robot".
+template <typename S>
+Momentum<S> centroidal_momentum_column_revolute(const Pose<S>& X_RC, const RigidBodyInertia<S>& I,
+                                                const Vector3<S>& c) {
+  const Vector3<S>& h = I.first_moment;
+  const Symmetric3<S>& J = I.rotational;
+  const Vector3<S> linear = X_RC.R * Vector3<S>{-h.y, h.x, S(0)};
+  return {X_RC.R * Vector3<S>{J.xz, J.yz, J.zz} + cross(X_RC.p - c, linear), linear};
+}
+
+template <typename S>
+Momentum<S> centroidal_momentum_column_prismatic(const Pose<S>& X_RC, const RigidBodyInertia<S>& I,
+                                                 const Vector3<S>& c) {
+  const Vector3<S>& h = I.first_moment;
+  const Vector3<S> linear = I.mass * Vector3<S>{X_RC.R.xz, X_RC.R.yz, X_RC.R.zz};
+  return {X_RC.R * Vector3<S>{h.y, -h.x, S(0)} + cross(X_RC.p - c, linear), linear};
+}
+
+// Six of them, of a floating base.
+template <typename S>
+struct MomentumBlock {
+  Momentum<S> columns[6];
+};
+
+template <typename S>
+MomentumBlock<S> centroidal_momentum_columns_floating(const Pose<S>& X_RC,
+                                                      const RigidBodyInertia<S>& I,
+                                                      const Vector3<S>& c) {
+  const S zero(0), one(1);
+  const Vector3<S> none = {zero, zero, zero};
+  const Vector3<S> axes[3] = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
+  MomentumBlock<S> block;
+  for (int k = 0; k < 3; ++k) {
+    block.columns[k] =
+        about(transform_to_proximal(X_RC, momentum(I, VelocityTwist<S>{axes[k], none})), c);
+    block.columns[3 + k] =
+        about(transform_to_proximal(X_RC, momentum(I, VelocityTwist<S>{none, axes[k]})), c);
+  }
+  return block;
+}
+
 }  // namespace sinew::math

@@ -305,3 +305,37 @@ void sinew_floating_linear_jacobian_from_columns(const double* const columns[], 
     for (int j = 1; j < count; ++j) J[row * width + 5 + j] = columns[j][row];
   }
 }
+
+void sinew_momentum_about_center_of_mass(const double* P, const double* c, double* P_c) {
+  store(about(load<Momentum>(P), load<Vector3>(c)), P_c);
+}
+
+void sinew_centroidal_momentum_column_revolute(const double* X, const double* I, const double* c,
+                                               double* A) {
+  store(centroidal_momentum_column_revolute(load<Pose>(X), load<RigidBodyInertia>(I),
+                                            load<Vector3>(c)),
+        A);
+}
+
+void sinew_centroidal_momentum_column_prismatic(const double* X, const double* I, const double* c,
+                                                double* A) {
+  store(centroidal_momentum_column_prismatic(load<Pose>(X), load<RigidBodyInertia>(I),
+                                             load<Vector3>(c)),
+        A);
+}
+
+void sinew_centroidal_momentum_columns_floating(const double* X, const double* I, const double* c,
+                                                double* A) {
+  store(centroidal_momentum_columns_floating(load<Pose>(X), load<RigidBodyInertia>(I),
+                                             load<Vector3>(c)),
+        A);
+}
+
+void sinew_momentum_matrix_from_columns(const double* const columns[], int count, double* A) {
+  sinew_jacobian_from_columns(columns, count, A);
+}
+
+void sinew_floating_momentum_matrix_from_columns(const double* const columns[], int count,
+                                                 double* A) {
+  sinew_floating_jacobian_from_columns(columns, count, A);
+}

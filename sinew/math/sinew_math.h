@@ -172,6 +172,18 @@ void sinew_weigh_floating_forces(const double* const parts[], int count, double*
  * b, all l. */
 void sinew_scale_within_limits(const double* const parts[], int count, double* s);
 
+/* Momentum about the centre of mass c, and what one unit of a joint's velocity adds to it. */
+void sinew_momentum_about_center_of_mass(const double P[6], const double c[3], double P_c[6]);
+void sinew_centroidal_momentum_column_revolute(const double X[12], const double I[10],
+                                               const double c[3], double A[6]);
+void sinew_centroidal_momentum_column_prismatic(const double X[12], const double I[10],
+                                                const double c[3], double A[6]);
+void sinew_centroidal_momentum_columns_floating(const double X[12], const double I[10],
+                                                const double c[3], double A[36]);
+void sinew_momentum_matrix_from_columns(const double *const columns[], int count, double *A);
+void sinew_floating_momentum_matrix_from_columns(const double *const columns[], int count,
+                                                 double *A);
+
 #ifdef __cplusplus
 }
 #endif

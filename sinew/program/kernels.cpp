@@ -207,6 +207,20 @@ std::vector<Kernel> make_kernels() {
           }),
       row("accumulate-momentum",
           []<typename S>(const Momentum<S>& a, const Momentum<S>& b) { return add(a, b); }),
+      row("momentum-about-center-of-mass",
+          []<typename S>(const Momentum<S>& P, const Vector3<S>& c) { return about(P, c); }),
+      row("centroidal-momentum-column-revolute",
+          []<typename S>(const Pose<S>& X, const RigidBodyInertia<S>& I, const Vector3<S>& c) {
+            return centroidal_momentum_column_revolute(X, I, c);
+          }),
+      row("centroidal-momentum-column-prismatic",
+          []<typename S>(const Pose<S>& X, const RigidBodyInertia<S>& I, const Vector3<S>& c) {
+            return centroidal_momentum_column_prismatic(X, I, c);
+          }),
+      row("centroidal-momentum-columns-floating",
+          []<typename S>(const Pose<S>& X, const RigidBodyInertia<S>& I, const Vector3<S>& c) {
+            return centroidal_momentum_columns_floating(X, I, c);
+          }),
       row("kinetic-energy-from-momentum",
           []<typename S>(const VelocityTwist<S>& V, const Momentum<S>& P) {
             return kinetic_energy(V, P);

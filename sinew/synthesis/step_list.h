@@ -46,6 +46,10 @@ Step momentum_step();
 Step center_of_mass_step();
 Step center_of_mass_velocity_step();
 Step center_of_mass_jacobian_step();
+Step centroidal_momentum_step();
+Step centroidal_momentum_matrix_step();
+
+// steps_energy.cpp
 Step kinetic_energy_step();
 Step potential_energy_step();
 

@@ -39,6 +39,8 @@ const std::vector<Step>& steps() {
       center_of_mass_step(),
       center_of_mass_velocity_step(),
       center_of_mass_jacobian_step(),
+      centroidal_momentum_step(),
+      centroidal_momentum_matrix_step(),
       jacobian_step(),
   };
   return list;

@@ -1,8 +1,8 @@
-// What a robot does as a whole: centre of mass with its velocity and Jacobian, momentum, energy;
-// all seen from the root and about the root's origin.
-#include "sinew/synthesis/composite.h"
+// What a robot does as a whole: centre of mass with its velocity and Jacobian, and momentum; all
+// seen from the root, and about its origin or the centre of mass.
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/step_list.h"
+#include "sinew/synthesis/whole_robot.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -20,22 +20,6 @@ BlockSpec momentum(std::string_view slot, Id represents, Id of, Id frame) {
           .of = of,
           .reference = frame,
           .seen_by = frame};
-}
-
-// A quantity of the whole robot, seen from the root.
-BlockSpec whole(const Context& context, std::string_view slot, std::string_view quantity) {
-  const Id body = context.robot.root_body, frame = context.robot.root_frame;
-  BlockSpec spec = {.slot = slot,
-                    .represents = body,
-                    .quantity = quantity,
-                    .of = body,
-                    .label = algorithm::kWholeRobot};
-  spec.wrt = spec.seen_by = spec.reference = frame;
-  return spec;
-}
-
-BlockIndex total_inertia(Context& context) {
-  return composite_so_far(context, context.robot.root_frame, context.robot.root_body);
 }
 
 // ---- momentum ----
@@ -119,105 +103,65 @@ void compute_center_velocity(Context& context, const Visit& visit) {
                   visit["body"]);
 }
 
+constexpr ColumnsOfJoints kCenterJacobian = {
+    .column = "center-of-mass-column",
+    .matrix = "center-of-mass-jacobian",
+    .column_quantity = "linear-jacobian-column",
+    .block_quantity = "linear-jacobian-block",
+    .matrix_quantity = "linear-jacobian",
+    .rows = 3,
+    .column_operator = "center-of-mass-column",
+    .columns_operator = "center-of-mass-columns",
+    .assemble = "linear-jacobian-from-columns",
+    .assemble_floating = "floating-linear-jacobian-from-columns"};
+
 void configure_center_jacobian(Context& context, const Visit&) {
-  const graph::Terms& terms = context.view.terms();
-  std::uint32_t columns = 0;
-  for (const RobotJoint& joint : context.robot.joints) {
-    const bool floats = joint.kind == "floating";
-    columns += floats ? 6 : 1;
-    BlockSpec spec = whole(context, "center-of-mass-column",
-                           floats ? "linear-jacobian-block" : "linear-jacobian-column");
-    spec.represents = joint.joint;
-    spec.prismatic = joint.kind == "prismatic";
-    spec.label = joint.label.empty() ? algorithm::short_name(terms.text(joint.joint)) : joint.label;
-    context.make(spec);
-  }
-  BlockSpec matrix = whole(context, "center-of-mass-jacobian", "linear-jacobian");
-  matrix.size = 3 * columns;
-  context.make(matrix);
+  configure_columns(context, kCenterJacobian, whole(context, "", ""));
 }
 
-void compute_center_jacobian(Context& context, const Visit& visit) {
-  std::vector<BlockIndex> blocks;
-  bool floats = false;
-  for (const RobotJoint& joint : context.robot.joints) {
-    blocks.push_back(context.block("center-of-mass-column", joint.joint));
-    floats |= joint.kind == "floating";
-    context.closure(joint.kind == "floating" ? "center-of-mass-columns-floating"
-                                             : "center-of-mass-column-" + joint.kind,
-                    {context.block("pose", joint.frame),
-                     composite_so_far(context, joint.frame, joint.successor),
-                     total_inertia(context), blocks.back()},
-                    joint.joint);
-  }
-  const auto count = static_cast<std::uint32_t>(blocks.size());
-  blocks.push_back(context.block("center-of-mass-jacobian", visit["body"]));
-  if (floats)
-    context.closure_with_counts("floating-linear-jacobian-from-columns", std::move(blocks),
-                                {1, count - 1, 1}, visit["body"]);
-  else
-    context.closure_with_counts("linear-jacobian-from-columns", std::move(blocks), {count, 1},
-                                visit["body"]);
+void compute_center_jacobian(Context& context, const Visit&) {
+  compute_columns(context, kCenterJacobian, total_inertia(context));
 }
 
-// ---- energy ----
+// ---- about the centre of mass ----
 
-void configure_kinetic(Context& context, const Visit& visit) {
-  if (!context.has("inertia", visit["body"])) return;
-  context.make({.slot = "body-kinetic-energy", .represents = visit["body"], .quantity = "energy"});
-  const BlockIndex before = context.board.find("kinetic-energy", context.robot.root_body);
-  context.board.put("kinetic-energy-before", visit["body"], before);
-  const BlockIndex sum =
-      before == kNoIndex
-          ? context.block("body-kinetic-energy", visit["body"])
-          : context.make(
-                {.slot = "kinetic-energy-with", .represents = visit["body"], .quantity = "energy"});
-  context.board.put("kinetic-energy", context.robot.root_body, sum);
+BlockSpec about_center(Context& context, std::string_view slot, std::string_view quantity) {
+  BlockSpec spec = whole(context, slot, quantity);
+  spec.wrt = {};
+  spec.reference = context.robot.root_body;
+  return spec;
 }
 
-void compute_kinetic(Context& context, const Visit& visit) {
-  if (!context.has("inertia", visit["body"])) return;
-  const BlockIndex own = context.block("body-kinetic-energy", visit["body"]);
+void configure_centroidal(Context& context, const Visit&) {
+  context.make(about_center(context, "centroidal-momentum", "momentum"));
+}
+
+void compute_centroidal(Context& context, const Visit& visit) {
   context.closure(
-      "kinetic-energy-from-momentum",
-      {context.block("body-twist", visit.node), context.block("own-momentum", visit.node), own},
+      "momentum-about-center-of-mass",
+      {momentum_so_far(context, visit.node), context.block("center-of-mass", visit["body"]),
+       context.block("centroidal-momentum", visit["body"])},
       visit["body"]);
-  const BlockIndex before = context.board.find("kinetic-energy-before", visit["body"]);
-  if (before != kNoIndex)
-    context.closure("add-energy",
-                    {before, own, context.block("kinetic-energy-with", visit["body"])},
-                    visit["body"]);
 }
 
-void configure_potential(Context& context, const Visit& visit) {
-  context.make({.slot = "potential-energy",
-                .represents = visit["body"],
-                .quantity = "energy",
-                .label = algorithm::kWholeRobot});
+constexpr ColumnsOfJoints kMomentumMatrix = {
+    .column = "centroidal-momentum-column",
+    .matrix = "centroidal-momentum-matrix",
+    .column_quantity = "momentum-column",
+    .block_quantity = "momentum-block",
+    .matrix_quantity = "momentum-matrix",
+    .rows = 6,
+    .column_operator = "centroidal-momentum-column",
+    .columns_operator = "centroidal-momentum-columns",
+    .assemble = "momentum-matrix-from-columns",
+    .assemble_floating = "floating-momentum-matrix-from-columns"};
+
+void configure_momentum_matrix(Context& context, const Visit&) {
+  configure_columns(context, kMomentumMatrix, about_center(context, "", ""));
 }
 
-void compute_potential(Context& context, const Visit& visit) {
-  context.closure("potential-energy-from-rigid-body-inertia",
-                  {total_inertia(context), context.block("base-acceleration", visit.node),
-                   context.block("potential-energy", visit["body"])},
-                  visit["body"]);
-}
-
-// A step that looks at the root alone, when the inward sweep has reached it.
-Step at_root(std::string name, std::string purpose, std::vector<std::string> needs,
-             std::string gives, Pass configure, Pass compute) {
-  return {.name = std::move(name),
-          .purpose = std::move(purpose),
-          .direction = Direction::kInward,
-          .expansion = std::string(kAcrossJoints),
-          .needs = std::move(needs),
-          .may_use = {},
-          .gives = {std::move(gives)},
-          .visitors = {{Where::kNode,
-                        {std::string(kIsRoot)},
-                        std::string(kBodyOfNode),
-                        std::move(configure),
-                        std::move(compute)}}};
+void compute_momentum_matrix(Context& context, const Visit& visit) {
+  compute_columns(context, kMomentumMatrix, context.block("center-of-mass", visit["body"]));
 }
 
 }  // namespace
@@ -264,22 +208,17 @@ Step center_of_mass_jacobian_step() {
                  configure_center_jacobian, compute_center_jacobian);
 }
 
-Step kinetic_energy_step() {
-  return {.name = "kinetic-energy",
-          .purpose = "half of each body's twist on its momentum",
-          .direction = Direction::kLocal,
-          .expansion = std::string(kAcrossJoints),
-          .needs = {"own-momentum", "body-twist"},
-          .may_use = {},
-          .gives = {"kinetic-energy"},
-          .visitors = {
-              {Where::kNode, {}, std::string(kBodyOfNode), configure_kinetic, compute_kinetic}}};
+Step centroidal_momentum_step() {
+  return at_root("centroidal-momentum", "momentum about the centre of mass",
+                 {"momentum", "center-of-mass"}, "centroidal-momentum", configure_centroidal,
+                 compute_centroidal);
 }
 
-Step potential_energy_step() {
-  return at_root("potential-energy", "the first moment of all mass against gravity",
-                 {"total-inertia", "base-acceleration"}, "potential-energy", configure_potential,
-                 compute_potential);
+Step centroidal_momentum_matrix_step() {
+  return at_root("centroidal-momentum-matrix",
+                 "each joint gives momentum to what hangs on it (Orin and Goswami 2008)",
+                 {"center-of-mass", "composite-inertia", "pose"}, "centroidal-momentum-matrix",
+                 configure_momentum_matrix, compute_momentum_matrix);
 }
 
 }  // namespace sinew::synthesis

@@ -136,7 +136,101 @@ class DartPeer final : public Peer {
     return numbers;
   }
 
+  Vector inverse_dynamics_under(const State& state, const std::string& link,
+                                const Vector& wrench) override {
+    set(state);
+    skeleton_->setAccelerations(own(state.acceleration));
+    BodyNode* body = body_of(link);
+    body->setExtTorque({wrench[0], wrench[1], wrench[2]}, true);
+    body->setExtForce({wrench[3], wrench[4], wrench[5]}, Eigen::Vector3d::Zero(), true, true);
+    skeleton_->computeInverseDynamics(true);
+    const Vector force = ours(skeleton_->getForces());
+    skeleton_->clearExternalForces();
+    return force;
+  }
+
+  std::optional<Vector> quantity(const State& state, std::string_view name,
+                                 const std::string& link) override {
+    set(state);
+    skeleton_->setAccelerations(own(state.acceleration));
+    if (!link.empty()) return of_link(name, *body_of(link));
+    if (name == "center-of-mass") return numbers(skeleton_->getCOM());
+    if (name == "center-of-mass-velocity") return numbers(skeleton_->getCOMLinearVelocity());
+    if (name == "center-of-mass-jacobian") return columns(skeleton_->getCOMLinearJacobian());
+    if (name == "momentum") return momentum(Eigen::Vector3d::Zero());
+    if (name == "centroidal-momentum") return momentum(skeleton_->getCOM());
+    if (name == "centroidal-momentum-matrix") return momentum_matrix(state);
+    if (name == "kinetic-energy") return Vector{skeleton_->computeKineticEnergy()};
+    // Skeleton::computePotentialEnergy takes centres of mass in their bodies' own coordinates.
+    if (name == "potential-energy")
+      return Vector{-skeleton_->getMass() * skeleton_->getGravity().dot(skeleton_->getCOM())};
+    return std::nullopt;
+  }
+
  private:
+  BodyNode* body_of(const std::string& link) {
+    BodyNode* body = skeleton_->getBodyNode(link);
+    if (body == nullptr) throw std::runtime_error("DART has no link " + link);
+    return body;
+  }
+  template <typename Column>
+  static Vector numbers(const Column& column) {
+    return Vector(column.data(), column.data() + column.size());
+  }
+  // Row by row, with the degrees of freedom in our order.
+  Vector columns(const Eigen::MatrixXd& matrix) const {
+    Vector result;
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+      for (const auto column : order()) {
+        result.push_back(matrix(row, static_cast<Eigen::Index>(column)));
+      }
+    }
+    return result;
+  }
+  Vector momentum(const Eigen::Vector3d& about) {
+    Eigen::Vector3d angular = Eigen::Vector3d::Zero(), linear = Eigen::Vector3d::Zero();
+    for (BodyNode* body : skeleton_->getBodyNodes()) {
+      // DART takes the pivot, and gives the result, in the body's own coordinates.
+      const Eigen::Isometry3d& pose = body->getWorldTransform();
+      angular += pose.linear() * body->getAngularMomentum(pose.inverse() * about);
+      linear += pose.linear() * body->getLinearMomentum();
+    }
+    Vector result = numbers(angular);
+    for (int i = 0; i < 3; ++i) result.push_back(linear[i]);
+    return result;
+  }
+  Vector momentum_matrix(const State& state) {
+    State unit = state;
+    const std::size_t n = state.velocity.size();
+    Vector matrix(6 * n);
+    for (std::size_t column = 0; column < n; ++column) {
+      unit.velocity.assign(n, 0);
+      unit.velocity[column] = 1;
+      set(unit);
+      const Vector one = momentum(skeleton_->getCOM());
+      for (std::size_t row = 0; row < 6; ++row) matrix[row * n + column] = one[row];
+    }
+    return matrix;
+  }
+  std::optional<Vector> of_link(std::string_view name, BodyNode& body) {
+    Eigen::Matrix<double, 6, 1> both;
+    if (name == "twist") {
+      both << body.getAngularVelocity(), body.getLinearVelocity();
+    } else if (name == "acceleration-twist") {
+      both << body.getAngularAcceleration(), body.getLinearAcceleration();
+    } else if (name == "jacobian-rate-times-velocity") {
+      both = skeleton_->getJacobianClassicDeriv(&body) * skeleton_->getVelocities();
+    } else if (name == "joint-wrench") {
+      skeleton_->computeInverseDynamics();
+      both = body.getBodyForce();
+    } else if (name == "jacobian") {
+      return columns(skeleton_->getWorldJacobian(&body));
+    } else {
+      return std::nullopt;
+    }
+    return numbers(both);
+  }
+
   // Degrees of freedom in our order. DART's free joint moves as ours does: angular then linear, in
   // the body.
   std::vector<std::size_t> order() const {

@@ -1,6 +1,8 @@
+#include <kdl/chainjnttojacdotsolver.hpp>
 #include <kdl/tree.hpp>
 #include <kdl/treefksolverpos_recursive.hpp>
 #include <kdl/treeidsolver_recursive_newton_euler.hpp>
+#include <kdl/treejnttojacsolver.hpp>
 
 #include "urdf_model.h"
 
@@ -105,7 +107,77 @@ class KdlPeer final : public Peer {
     return numbers;
   }
 
+  Vector inverse_dynamics_under(const State& state, const std::string& link,
+                                const Vector& wrench) override {
+    set(state);
+    KDL::WrenchMap external;
+    external[link] = {KDL::Vector(wrench[3], wrench[4], wrench[5]),
+                      KDL::Vector(wrench[0], wrench[1], wrench[2])};
+    return solve(*inverse_, external);
+  }
+
+  std::optional<Vector> quantity(const State& state, std::string_view name,
+                                 const std::string& link) override {
+    if (link.empty() || link == tree_.getRootSegment()->first) return std::nullopt;
+    set(state);
+    if (name == "jacobian") return jacobian(link);
+    if (name == "twist") return times(jacobian(link), state.velocity);
+    if (name == "jacobian-rate-times-velocity") return jacobian_rate(link);
+    if (name == "acceleration-twist") {
+      Vector sum = times(jacobian(link), state.acceleration);
+      const Vector rate = jacobian_rate(link);
+      for (std::size_t i = 0; i < 6; ++i) sum[i] += rate[i];
+      return sum;
+    }
+    return std::nullopt;
+  }
+
  private:
+  // KDL has linear rows first.
+  static std::size_t our_row(std::size_t row) { return row < 3 ? row + 3 : row - 3; }
+
+  Vector jacobian(const std::string& link) {
+    const std::size_t n = index_.size();
+    KDL::Jacobian own(static_cast<unsigned>(n));
+    KDL::TreeJntToJacSolver solver(tree_);
+    if (solver.JntToJac(q_, own, link) < 0) throw std::runtime_error("KDL has no link " + link);
+    Vector matrix(6 * n);
+    for (std::size_t row = 0; row < 6; ++row) {
+      for (std::size_t column = 0; column < n; ++column) {
+        matrix[our_row(row) * n + column] = own(static_cast<unsigned>(row), index_[column]);
+      }
+    }
+    return matrix;
+  }
+
+  static Vector times(const Vector& matrix, const Vector& vector) {
+    const std::size_t n = vector.size();
+    Vector result(matrix.size() / n, 0.0);
+    for (std::size_t i = 0; i < matrix.size(); ++i) result[i / n] += matrix[i] * vector[i % n];
+    return result;
+  }
+
+  Vector jacobian_rate(const std::string& link) {
+    KDL::Chain chain;
+    if (!tree_.getChain(tree_.getRootSegment()->first, link, chain))
+      throw std::runtime_error("KDL has no chain to " + link);
+    KDL::JntArrayVel motion(chain.getNrOfJoints());
+    unsigned at = 0;
+    for (const KDL::Segment& segment : chain.segments) {
+      if (segment.getJoint().getType() == KDL::Joint::None) continue;
+      const unsigned own = GetTreeElementQNr(tree_.getSegment(segment.getName())->second);
+      motion.q(at) = q_(own);
+      motion.qdot(at++) = qd_(own);
+    }
+    if (at == 0) return Vector(6, 0.0);
+    KDL::ChainJntToJacDotSolver solver(chain);
+    KDL::Twist rate;
+    if (solver.JntToJacDot(motion, rate) < 0) throw std::runtime_error("KDL fails");
+    Vector result(6);
+    for (int row = 0; row < 6; ++row) result[our_row(static_cast<std::size_t>(row))] = rate(row);
+    return result;
+  }
+
   void set(const State& state) {
     for (std::size_t i = 0; i < index_.size(); ++i) {
       q_(index_[i]) = state.position[i];
@@ -113,8 +185,8 @@ class KdlPeer final : public Peer {
       qdd_(index_[i]) = state.acceleration.empty() ? 0 : state.acceleration[i];
     }
   }
-  Vector solve(KDL::TreeIdSolver_RNE& solver) {
-    if (solver.CartToJnt(q_, qd_, qdd_, {}, tau_) != 0) throw std::runtime_error("KDL fails");
+  Vector solve(KDL::TreeIdSolver_RNE& solver, const KDL::WrenchMap& external = {}) {
+    if (solver.CartToJnt(q_, qd_, qdd_, external, tau_) != 0) throw std::runtime_error("KDL fails");
     Vector force;
     for (const unsigned i : index_) force.push_back(tau_(i));
     return force;

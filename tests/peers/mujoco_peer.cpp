@@ -85,6 +85,7 @@ class MujocoPeer final : public Peer {
     model_ = mj_loadXML("robot.xml", &files, fault, sizeof fault);
     mj_deleteVFS(&files);
     if (model_ == nullptr) throw std::runtime_error(std::string("MuJoCo: ") + fault);
+    model_->opt.enableflags |= mjENBL_ENERGY;
     data_ = mj_makeData(model_);
     for (const std::string& joint : setup.joints) {
       const int id = mj_name2id(model_, mjOBJ_JOINT, joint.c_str());
@@ -141,22 +142,8 @@ class MujocoPeer final : public Peer {
     const auto nv = static_cast<std::size_t>(model_->nv);
     Vector own(nv * nv);
     mj_fullM(model_, own.data(), data_->qM);
-    // Rows and columns of the base are turned from world to body axes for linear motion: v_world =
-    // R v_body.
-    std::vector<std::vector<double>>
-        to_own;  // column k: own velocities for unit velocity k of ours
-    const std::size_t base = floating_ ? 6 : 0, n = base + velocity_.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      std::vector<double> column(nv, 0.0);
-      if (floating_ && k < 3) column[3 + k] = 1;
-      if (floating_ && k >= 3 && k < 6) {
-        Vector3 unit{0, 0, 0};
-        unit[k - 3] = 1;
-        mju_rotVecQuat(column.data(), unit.data(), data_->qpos + 3);
-      }
-      if (k >= base) column[static_cast<std::size_t>(velocity_[k - base])] = 1;
-      to_own.push_back(std::move(column));
-    }
+    const std::vector<Vector> to_own = own_velocities();
+    const std::size_t n = to_own.size();
     Vector matrix(n * n, 0.0);
     for (std::size_t row = 0; row < n; ++row) {
       for (std::size_t column = 0; column < n; ++column) {
@@ -185,7 +172,154 @@ class MujocoPeer final : public Peer {
     return pose;
   }
 
+  Vector inverse_dynamics_under(const State& state, const std::string& link,
+                                const Vector& wrench) override {
+    // What MuJoCo calls inverse dynamics is all forces together; a wrench's share is J^T W.
+    Vector force = inverse_dynamics(state);
+    const int body = body_of(link);
+    Vector in_world(6);
+    mju_rotVecMat(in_world.data(), wrench.data(), data_->xmat + 9 * body);
+    mju_rotVecMat(in_world.data() + 3, wrench.data() + 3, data_->xmat + 9 * body);
+    const Vector J = jacobian(body);
+    for (std::size_t i = 0; i < J.size(); ++i)
+      force[i % force.size()] -= J[i] * in_world[i / force.size()];
+    return force;
+  }
+
+  std::optional<Vector> quantity(const State& state, std::string_view name,
+                                 const std::string& link) override {
+    set(state);
+    mju_zero(data_->xfrc_applied, 6 * model_->nbody);
+    write_acceleration(state, state.acceleration);
+    mj_inverse(model_, data_);
+    if (!link.empty()) return of_link(name, body_of(link));
+    mj_subtreeVel(model_, data_);
+    if (name == "center-of-mass") return Vector(data_->subtree_com, data_->subtree_com + 3);
+    if (name == "center-of-mass-velocity")
+      return Vector(data_->subtree_linvel, data_->subtree_linvel + 3);
+    if (name == "center-of-mass-jacobian") {
+      Vector own(3 * static_cast<std::size_t>(model_->nv));
+      mj_jacSubtreeCom(model_, data_, own.data(), 0);
+      return our_columns(own);
+    }
+    if (name == "momentum") return momentum(true);
+    if (name == "centroidal-momentum") return momentum(false);
+    if (name == "centroidal-momentum-matrix") return momentum_matrix(state);
+    mj_energyPos(model_, data_);
+    mj_energyVel(model_, data_);
+    if (name == "potential-energy") return Vector{data_->energy[0]};
+    if (name == "kinetic-energy") return Vector{data_->energy[1]};
+    return std::nullopt;
+  }
+
  private:
+  int body_of(const std::string& link) const {
+    const int id = mj_name2id(model_, mjOBJ_BODY, ("link " + link).c_str());
+    if (id < 0) throw std::runtime_error("MuJoCo has no link " + link);
+    return id;
+  }
+
+  // Column k: MuJoCo's velocities for one unit of our velocity k. It sees the linear velocity of a
+  // floating base from the world, we from the base: v_world = R v_body.
+  std::vector<Vector> own_velocities() const {
+    const auto nv = static_cast<std::size_t>(model_->nv);
+    std::vector<Vector> to_own;
+    const std::size_t base = floating_ ? 6 : 0, n = base + velocity_.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      Vector column(nv, 0.0);
+      if (floating_ && k < 3) column[3 + k] = 1;
+      if (floating_ && k >= 3 && k < 6) {
+        Vector3 unit{0, 0, 0};
+        unit[k - 3] = 1;
+        mju_rotVecQuat(column.data(), unit.data(), data_->qpos + 3);
+      }
+      if (k >= base) column[static_cast<std::size_t>(velocity_[k - base])] = 1;
+      to_own.push_back(std::move(column));
+    }
+    return to_own;
+  }
+
+  // A matrix with a column for each of MuJoCo's velocities, with one for each of ours.
+  Vector our_columns(const Vector& own) const {
+    const auto nv = static_cast<std::size_t>(model_->nv);
+    const std::vector<Vector> to_own = own_velocities();
+    const std::size_t rows = own.size() / nv, n = to_own.size();
+    Vector result(rows * n, 0.0);
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t column = 0; column < n; ++column) {
+        for (std::size_t k = 0; k < nv; ++k)
+          result[row * n + column] += own[row * nv + k] * to_own[column][k];
+      }
+    }
+    return result;
+  }
+
+  Vector jacobian(int body) {
+    const auto nv = static_cast<std::size_t>(model_->nv);
+    Vector own(6 * nv);
+    mj_jac(model_, data_, own.data() + 3 * nv, own.data(), data_->xpos + 3 * body, body);
+    return our_columns(own);
+  }
+
+  Vector momentum(bool about_origin) const {
+    const double* c = data_->subtree_com;
+    Vector result(data_->subtree_angmom, data_->subtree_angmom + 3);
+    for (int i = 0; i < 3; ++i)
+      result.push_back(model_->body_subtreemass[0] * data_->subtree_linvel[i]);
+    if (about_origin) {
+      Vector3 moment;
+      mju_cross(moment.data(), c, result.data() + 3);
+      for (std::size_t i = 0; i < 3; ++i) result[i] += moment[i];
+    }
+    return result;
+  }
+
+  Vector momentum_matrix(const State& state) {
+    const std::size_t n = state.velocity.size();
+    State unit = state;
+    Vector matrix(6 * n);
+    for (std::size_t column = 0; column < n; ++column) {
+      unit.velocity.assign(n, 0);
+      unit.velocity[column] = 1;
+      set(unit);
+      mj_fwdPosition(model_, data_);
+      mj_fwdVelocity(model_, data_);
+      mj_subtreeVel(model_, data_);
+      const Vector one = momentum(false);
+      for (std::size_t row = 0; row < 6; ++row) matrix[row * n + column] = one[row];
+    }
+    return matrix;
+  }
+
+  std::optional<Vector> of_link(std::string_view name, int body) {
+    Vector both(6);
+    if (name == "jacobian") return jacobian(body);
+    if (name == "twist") {
+      mj_objectVelocity(model_, data_, mjOBJ_XBODY, body, both.data(), 0);
+      return both;
+    }
+    mj_rnePostConstraint(model_, data_);
+    if (name == "acceleration-twist") {
+      // What an accelerometer there would read: gravity is to be added.
+      mj_objectAcceleration(model_, data_, mjOBJ_XBODY, body, both.data(), 0);
+      for (int i = 0; i < 3; ++i) both[static_cast<std::size_t>(3 + i)] += model_->opt.gravity[i];
+      return both;
+    }
+    if (name == "joint-wrench") {
+      // MuJoCo's is about the centre of mass of the whole tree, with the world's directions.
+      const double* wrench = data_->cfrc_int + 6 * body;
+      const double* center = data_->subtree_com + 3 * model_->body_rootid[body];
+      Vector3 lever, moment;
+      mju_sub3(lever.data(), center, data_->xpos + 3 * body);
+      mju_cross(moment.data(), lever.data(), wrench + 3);
+      mju_addTo3(moment.data(), wrench);
+      mju_rotVecMatT(both.data(), moment.data(), data_->xmat + 9 * body);
+      mju_rotVecMatT(both.data() + 3, wrench + 3, data_->xmat + 9 * body);
+      return both;
+    }
+    return std::nullopt;
+  }
+
   Vector3 to_body(const double* in_world) const {
     Quaternion inverse;
     mju_negQuat(inverse.data(), data_->qpos + 3);

@@ -9,7 +9,9 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sinew::peers {
@@ -40,6 +42,19 @@ class Peer {
   virtual Vector mass_matrix(const State& state) = 0;
   // 3x4 row-major [R p] of a link in the world (the fixed base's frame).
   virtual Vector link_pose(const State& state, const std::string& link) = 0;
+
+  // Whatever else a library may know, by the name that our queries have for it and in our layout:
+  // seen from the world, a link's about its own origin; "joint-wrench" is that of the joint before
+  // the link, seen from the link. Nothing where the library has no such quantity.
+  virtual std::optional<Vector> quantity(const State& state, std::string_view name,
+                                         const std::string& link = {}) {
+    static_cast<void>(state), static_cast<void>(name), static_cast<void>(link);
+    return std::nullopt;
+  }
+  // As above, while a wrench (moment, force) acts on a link, seen from the link and about its
+  // origin.
+  virtual Vector inverse_dynamics_under(const State& state, const std::string& link,
+                                        const Vector& wrench) = 0;
 };
 
 // Throw std::runtime_error with what the library says.

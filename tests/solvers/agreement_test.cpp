@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 
+#include "compare.h"
 #include "question.h"
 #include "random_urdf.h"
 
@@ -15,20 +15,6 @@ namespace sinew::test {
 namespace {
 
 constexpr unsigned kStates = 1000;
-
-double largest(const peers::Vector& numbers) {
-  double result = 0;
-  for (const double number : numbers) result = std::max(result, std::fabs(number));
-  return result;
-}
-
-// The largest difference, relative to the largest number (but at least to 1).
-double difference(const peers::Vector& a, const peers::Vector& b) {
-  if (a.size() != b.size()) return 1e300;
-  double result = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) result = std::max(result, std::fabs(a[i] - b[i]));
-  return result / std::max(1.0, largest(b));
-}
 
 std::vector<std::unique_ptr<peers::Peer>> all_peers(const Robot& robot,
                                                     const std::vector<std::string>& joints) {

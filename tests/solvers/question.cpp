@@ -26,14 +26,25 @@ std::vector<Robot> published_robots() {
   return robots;
 }
 
-Question::Question(const Robot& robot, const std::string& solver, bool floating) {
-  cli::ModelOptions files;
-  files.files = {robot.file};
-  files.lenient = true;
+namespace {
+
+cli::QueryOptions options_of(const std::string& solver, bool floating) {
   cli::QueryOptions query;
   query.solver = solver;
   query.gravity = "0,0,-9.81";
   query.floating = floating;
+  return query;
+}
+
+}  // namespace
+
+Question::Question(const Robot& robot, const std::string& solver, bool floating)
+    : Question(robot, options_of(solver, floating)) {}
+
+Question::Question(const Robot& robot, const cli::QueryOptions& query) {
+  cli::ModelOptions files;
+  files.files = {robot.file};
+  files.lenient = true;
   const auto models = cli::load(files);
   program_ = cli::program_of(*models, files, query, "");
   evaluator_ =
@@ -49,19 +60,37 @@ Question::Question(const Robot& robot, const std::string& solver, bool floating)
 
 peers::Vector Question::answer(const peers::State& state, const peers::Vector& force) {
   // Each quantity's numbers come in the order of the state: the base's, then the joints'.
+  const std::map<std::string, const peers::Vector*> vectors = {
+      {"position", &state.position},
+      {"velocity", &state.velocity},
+      {"acceleration", &state.acceleration},
+      {"force", &force}};
   peers::Vector in;
   std::map<std::string, std::size_t> used;
   for (const std::string& input : inputs_) {
+    const std::string block = input.substr(0, input.find('['));
+    if (const auto other = others_.find(block); other != others_.end()) {
+      in.push_back(other->second.at(used[block]++));
+      continue;
+    }
     const std::string quantity = input.substr(0, input.find('.'));
-    const peers::Vector& numbers = quantity == "position"       ? state.position
-                                   : quantity == "velocity"     ? state.velocity
-                                   : quantity == "acceleration" ? state.acceleration
-                                                                : force;
-    in.push_back(numbers.at(used[quantity]++));
+    in.push_back(vectors.at(quantity)->at(used[quantity]++));
   }
   peers::Vector out(evaluator_->interface().out_size);
   evaluator_->evaluate(in.data(), out.data());
   return out;
+}
+
+std::map<std::string, peers::Vector> Question::answers(const peers::State& state,
+                                                       const peers::Vector& force) {
+  const peers::Vector all = answer(state, force);
+  std::map<std::string, peers::Vector> named;
+  for (const program::Slot& slot : evaluator_->interface().outputs) {
+    const program::Variable& variable = program_.variables[slot.variable];
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(slot.offset);
+    named[variable.name] = peers::Vector(first, first + static_cast<std::ptrdiff_t>(variable.size));
+  }
+  return named;
 }
 
 peers::State random_state(std::size_t joints, unsigned seed, bool floating) {
