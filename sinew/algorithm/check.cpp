@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <unordered_set>
+
+#include "sinew/data/units.h"
 
 namespace sinew::algorithm {
 namespace {
@@ -46,6 +49,38 @@ void check_rule(const Terms& terms, const Algorithm& algorithm, const Closure& c
           fmt::format("must hold: {}", to_string(rule, *closure.op)));
     });
   });
+}
+
+// The dimension of a block that has one unit; nothing where it has several, or one that is unknown.
+std::optional<data::Dimension> dimension_of(const Block& block) {
+  const std::optional<data::Unit> unit = data::find_unit(block.unit);
+  if (!unit) return std::nullopt;
+  return unit->dimension;
+}
+
+void check_units(const Terms& terms, const Algorithm& algorithm, const Closure& closure,
+                 const UnitRule& rule, Report& report) {
+  data::Dimension product = rule.rest;
+  std::string units;
+  for (const UnitRule::Factor& factor : rule.factors) {
+    // Ports that take many have quantities of known units and are in no rule.
+    const Block& block = algorithm.blocks[closure.arguments[factor.port]];
+    const std::optional<data::Dimension> dimension = dimension_of(block);
+    if (!dimension) {
+      report.error({}, text(terms, block.id),
+                   fmt::format("{}: {} is in {}, which is no single known unit",
+                               describe(terms, closure), block.name, block.unit),
+                   "one of metamodels/units.json");
+      return;
+    }
+    product = product * data::power(*dimension, factor.exponent);
+    units += fmt::format("{}{} is in {}", units.empty() ? "" : ", ",
+                         closure.op->ports[factor.port].name, block.unit);
+  }
+  if (product.dimensionless()) return;
+  report.error({}, text(terms, closure.id),
+               fmt::format("{}: the units do not fit: {}", describe(terms, closure), units),
+               fmt::format("must hold: {}", rule.text));
 }
 
 // Which closure writes each block; reports a second writer.
@@ -185,6 +220,8 @@ void check_closure(const Terms& terms, const Algorithm& algorithm, const Closure
   if (!typed) return;
   for (const FrameRule& rule : closure.op->rules)
     check_rule(terms, algorithm, closure, rule, report);
+  for (const UnitRule& rule : closure.op->unit_rules)
+    check_units(terms, algorithm, closure, rule, report);
 }
 
 void check_algorithm(const Terms& terms, const Algorithm& algorithm, Report& report) {

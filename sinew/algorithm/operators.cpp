@@ -1,7 +1,11 @@
 #include "sinew/algorithm/operators.h"
 
+#include <cctype>
 #include <stdexcept>
 #include <unordered_map>
+
+#include "sinew/algorithm/operator_rows.h"
+#include "sinew/data/units.h"
 
 namespace sinew::algorithm {
 namespace {
@@ -9,15 +13,8 @@ namespace {
 #define SINEW_PUBLISHED "https://comp-rob2b.github.io/metamodels/"
 #define SINEW_GEOMETRY SINEW_PUBLISHED "geometry/spatial-operators#"
 #define SINEW_DYNAMICS SINEW_PUBLISHED "newtonian-rigid-body-dynamics/operators#"
-#define SINEW_OWN "https://w3id.org/sinew/operators#"
 
-// ports: "NAME:QUANTITY ... -> NAME:QUANTITY ..."; `NAME*` takes a list.
-// rules: "PORT.SYMBOL = PORT.SYMBOL; ..." with the symbols of, wrt, seen, ref; `at` is seen and ref
-// together, so "from.at = pose.wrt" says that `from` is seen from, and about the origin of, the
-// pose's `wrt`. A port's property has the namespace of the operator's IRI.
-struct Row {
-  std::string_view name, iri, ports, rules, formula;
-};
+using Row = OperatorRow;
 
 constexpr Row kRows[] = {
     // Joint space to Cartesian space. The joint's axis is z of its two frames.
@@ -505,13 +502,39 @@ void parse_rules(const Row& row, Operator& op) {
   }
 }
 
+// "control = proportional-gain error": what is right of the sign, divided by what is left of it,
+// has no dimension.
+void parse_units(const Row& row, Operator& op) {
+  for (std::string_view rest = row.units; !rest.empty();) {
+    std::string_view right = take(rest, "; ");
+    UnitRule rule{std::string(right), {}, {}};
+    bool left = true;
+    while (!right.empty()) {
+      const std::string_view word = take(right, " ");
+      if (word == "=") {
+        left = false;
+      } else if (std::isupper(static_cast<unsigned char>(word.front()))) {
+        const auto unit = data::find_unit(word);
+        if (!unit) fault(row, "a rule names a unit that does not exist");
+        rule.rest = left ? rule.rest / unit->dimension : rule.rest * unit->dimension;
+      } else if (word != "1") {
+        rule.factors.push_back(
+            {port_index(row, op, word), static_cast<std::int8_t>(left ? -1 : 1)});
+      }
+    }
+    op.unit_rules.push_back(std::move(rule));
+  }
+}
+
 struct Catalogue {
   std::vector<Operator> all;
   std::unordered_map<std::string_view, const Operator*> by_name, by_iri;
 
   Catalogue() {
-    all.reserve(std::size(kRows) + std::size(kExternalRows));
+    const std::span<const Row> control = control_operator_rows();
+    all.reserve(std::size(kRows) + control.size() + std::size(kExternalRows));
     for (const Row& row : kRows) add(row, false);
+    for (const Row& row : control) add(row, false);
     for (const Row& row : kExternalRows) add(row, true);
     for (const Operator& op : all) {
       if (!by_name.emplace(op.name, &op).second || !by_iri.emplace(op.iri, &op).second)
@@ -520,10 +543,11 @@ struct Catalogue {
   }
 
   void add(const Row& row, bool external) {
-    Operator& op =
-        all.emplace_back(Operator{row.name, std::string(row.iri), row.formula, {}, {}, external});
+    Operator& op = all.emplace_back(
+        Operator{row.name, std::string(row.iri), row.formula, {}, {}, {}, external});
     parse_ports(row, op);
     parse_rules(row, op);
+    parse_units(row, op);
   }
 };
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "sinew/algorithm/quantities.h"
+#include "sinew/data/dimension.h"
 
 namespace sinew::algorithm {
 
@@ -43,12 +44,25 @@ struct FrameRule {
   Symbol left, right;  // must be the same node
 };
 
+// Dimensions that fit each other: the product of the ports' dimensions, each with its exponent, and
+// of `rest` is none.
+struct UnitRule {
+  struct Factor {
+    std::uint8_t port = 0;
+    std::int8_t exponent = 1;
+  };
+  std::string text;  // "control = proportional-gain error"
+  std::vector<Factor> factors;
+  data::Dimension rest;
+};
+
 struct Operator {
   std::string_view name;     // "compose-pose"
   std::string iri;           // published where a published one exists
   std::string_view formula;  // what it computes
   std::vector<Port> ports;   // inputs first
   std::vector<FrameRule> rules;
+  std::vector<UnitRule> unit_rules;
   bool external = false;
 };
 

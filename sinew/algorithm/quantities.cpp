@@ -51,6 +51,15 @@ constexpr std::array kQuantities = {
     Quantity{"acceleration-energy", 1, "N-M-PER-SEC2", "", kNone},
     Quantity{"magnitude", 1, "UNITLESS", "", kNone},
     Quantity{"constraint-magnitudes", 0, "UNITLESS", "", kNone},
+    // Of tasks and their controllers: one number of any unit; 1 or 0; a direction, and one that is
+    // a body's line of action; the error of a pose and what an impedance makes of it.
+    Quantity{"signal", 1, "", "", kNone},
+    Quantity{"flag", 1, "UNITLESS", "", kNone},
+    Quantity{"direction", 3, "UNITLESS", "", kSeen},
+    Quantity{"line", 3, "UNITLESS", "", kAt},
+    Quantity{"pose-error", 6, "RAD M", "", kTwist},
+    Quantity{"spatial-stiffness", 6, "N-M-PER-RAD N-PER-M", "", kSeen},
+    Quantity{"spatial-damping", 6, "N-M-SEC-PER-RAD N-SEC-PER-M", "", kSeen},
     Quantity{"mass-matrix", 0, "KiloGM M-KiloGM KiloGM-M2", "", kNone},
 };
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "sinew/math/articulated_inertia.h"
+#include "sinew/math/control.h"
 #include "sinew/math/floating.h"
 #include "sinew/math/inertia.h"
 #include "sinew/math/jacobian.h"
@@ -71,6 +72,24 @@ struct Layout<Wrench<S>> {
   static void store(const Wrench<S>& W, S* at) {
     at[0] = W.moment.x, at[1] = W.moment.y, at[2] = W.moment.z;
     at[3] = W.force.x, at[4] = W.force.y, at[5] = W.force.z;
+  }
+};
+
+template <typename S>
+struct Layout<PoseError<S>> {
+  static constexpr std::uint32_t kSize = 6;
+  static PoseError<S> load(const S* at) { return {{at[0], at[1], at[2]}, {at[3], at[4], at[5]}}; }
+  static void store(const PoseError<S>& e, S* at) {
+    at[0] = e.angular.x, at[1] = e.angular.y, at[2] = e.angular.z;
+    at[3] = e.linear.x, at[4] = e.linear.y, at[5] = e.linear.z;
+  }
+};
+
+template <typename S>
+struct Layout<SpatialGains<S>> {
+  static constexpr std::uint32_t kSize = 6;
+  static SpatialGains<S> load(const S* at) {
+    return {{at[0], at[1], at[2]}, {at[3], at[4], at[5]}};
   }
 };
 

@@ -188,4 +188,6 @@ void sinew_floating_momentum_matrix_from_columns(const double *const columns[], 
 }
 #endif
 
+#include "sinew_math_control.h"
+
 #endif

@@ -1,9 +1,6 @@
 #include "sinew/program/kernels.h"
 
 #include <algorithm>
-#include <array>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "sinew/math/articulated_inertia.h"
@@ -12,47 +9,16 @@
 #include "sinew/math/inertia.h"
 #include "sinew/math/jacobian.h"
 #include "sinew/math/joint.h"
-#include "sinew/math/layout.h"
 #include "sinew/math/momentum.h"
+#include "sinew/program/kernel_row.h"
 #include "sinew/program/kernels_constraints.h"
+#include "sinew/program/kernels_control.h"
 #include "sinew/program/kernels_many.h"
 
 namespace sinew::program {
 namespace {
 
 using namespace sinew::math;
-
-// Reads a row's types off its function: R f(A...) has one port for each argument, then one for the
-// result, with the sizes of their layouts.
-template <typename Signature>
-struct Call;
-
-template <typename F, typename R, typename... A>
-struct Call<R (F::*)(A...) const> {
-  static constexpr std::array<Port, sizeof...(A) + 1> kPorts = {
-      Port{Layout<std::remove_cvref_t<A>>::kSize, false}..., Port{Layout<R>::kSize, true}};
-
-  template <typename S>
-  static void apply(S* const* arguments) {
-    [arguments]<std::size_t... I>(std::index_sequence<I...>) {
-      const R result = F{}(Layout<std::remove_cvref_t<A>>::load(arguments[I])...);
-      Layout<R>::store(result, arguments[sizeof...(I)]);
-    }
-    (std::index_sequence_for<A...>{});
-  }
-};
-
-template <typename F>
-Kernel row(std::string_view operation, F) {
-  using Numeric = Call<decltype(&F::template operator()<double>)>;
-  using Tracing = Call<decltype(&F::template operator()<Traced>)>;
-  return {operation,
-          Numeric::kPorts,
-          &Numeric::template apply<double>,
-          &Tracing::template apply<Traced>,
-          nullptr,
-          nullptr};
-}
 
 // Operators of the same name in the catalogue (algorithm/operators.cpp) have the same ports; a test
 // compares the two tables.
@@ -287,6 +253,7 @@ std::vector<Kernel> make_kernels() {
       row("subtract-acceleration-energy",
           []<typename S>(const S& a, const S& b) { return S(a - b); }),
   };
+  for (const Kernel& kernel : kernels_of_control()) rows.push_back(kernel);
   for (const Kernel& kernel : kernels_of_many()) rows.push_back(kernel);
   for (const Kernel& kernel : constraint_kernels()) rows.push_back(kernel);
   std::sort(rows.begin(), rows.end(),

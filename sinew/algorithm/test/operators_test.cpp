@@ -58,5 +58,19 @@ TEST(Operators, TieEverySymbolOfTheirOutputToAnInput) {
   }
 }
 
+// A port of open unit is in a rule that ties it to another, or to a unit: no number's unit can be
+// chosen at will.
+TEST(Operators, TieEveryOpenUnitByARule) {
+  for (const Operator& op : operators())
+    for (std::uint8_t port = 0; port < op.ports.size(); ++port) {
+      const Quantity* quantity = find_quantity(op.ports[port].quantity);
+      if (quantity == nullptr || !quantity->unit.empty()) continue;
+      bool tied = false;
+      for (const UnitRule& rule : op.unit_rules)
+        for (const UnitRule::Factor& factor : rule.factors) tied |= factor.port == port;
+      EXPECT_TRUE(tied) << op.name << ": " << op.ports[port].name;
+    }
+}
+
 }  // namespace
 }  // namespace sinew::algorithm
