@@ -8,7 +8,6 @@
 
 #include "asn_quaternion_to_e_rotation.h"  // made by sinew convert from examples/conversions/orientation.blocks
 #include "sinew/blocks/elaborate.h"
-#include "sinew/blocks/kernels/geometry_kernels.h"
 #include "sinew/data/engine.h"
 
 namespace {
@@ -96,12 +95,12 @@ const data::Library& orientation() {
 
 void BM_Engine(benchmark::State& state) {
   data::EngineOptions options;
-  if (state.range(0)) options.kernels = blocks::geometry_kernels();
+  options.interpret = state.range(0) != 0;
   const auto converter = data::make_converter(
       orientation(), data::find_plan(orientation(), "asn_quaternion", "e_rotation"), options);
   convert_all(state, [&](const auto& q, Matrix& r) { converter.run(&q, r.data()); });
 }
-BENCHMARK(BM_Engine)->ArgName("kernels")->Arg(0)->Arg(1);
+BENCHMARK(BM_Engine)->ArgName("interpreted")->Arg(0)->Arg(1);
 
 // A file of n prototypes of one meaning in three coordinates, with functions between some of them.
 data::Library many_prototypes(int n) {

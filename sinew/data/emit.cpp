@@ -75,7 +75,8 @@ class Emitter {
     for (const auto& stage : program_.stages) {
       for (const auto& call : stage.calls) {
         const Function& function = library_.functions[call.function];
-        if (cpp() || function.context == "c99") continue;
+        if (cpp() || function.context == "c99" || function.symbol.starts_with(kMangledPrefix))
+          continue;
         throw Error(Problem{function.place,
                             function.name,
                             "a C++ function cannot be called from C",
@@ -297,7 +298,8 @@ class Emitter {
               fmt::format("{}{}* {}", constant, type_name(type, options_.language), local);
         }
       }
-      const bool c_linkage = cpp() && function.context == "c99";
+      const bool c_linkage =
+          cpp() && (function.context == "c99" || function.symbol.starts_with(kMangledPrefix));
       text += fmt::format(
           "{}{} {}({});{}\n", c_linkage ? "extern \"C\" " : "", result, function.symbol, parameters,
           function.library.empty() ? "" : fmt::format("  // library {}", function.library));

@@ -110,6 +110,89 @@ void Converter::call(const Call& call, char* const* blocks) const {
   }
 }
 
+// False ends the conversion.
+[[gnu::always_inline]] inline bool Converter::step(const Operation& o, double* r,
+                                                   char* const* blocks) const {
+  switch (o.code) {
+    case Code::kEnd:
+      return false;
+    case Code::kLoadDoubles:
+      for (const Place *place = places_.data() + o.x, *end = places_.data() + o.y; place != end;
+           ++place) {
+        r[place->number] = read_as<double>(blocks[o.a] + place->offset);
+      }
+      break;
+    case Code::kStoreDoubles:
+      for (const Place *place = places_.data() + o.x, *end = places_.data() + o.y; place != end;
+           ++place) {
+        write_as(blocks[o.a] + place->offset, r[place->number]);
+      }
+      break;
+    case Code::kLoadDouble:
+      r[o.c] = read_as<double>(blocks[o.a] + o.x);
+      break;
+    case Code::kLoad:
+      r[o.c] = load(ScalarKind(o.kind), blocks[o.a] + o.x);
+      break;
+    case Code::kLoadPath:
+      r[o.c] = load(ScalarKind(o.kind), follow(blocks[o.a], paths_[o.x].offsets));
+      break;
+    case Code::kStoreDouble:
+      write_as(blocks[o.a] + o.x, r[o.c]);
+      break;
+    case Code::kStore:
+      store(ScalarKind(o.kind), blocks[o.a] + o.x, r[o.c]);
+      break;
+    case Code::kStorePath:
+      store(ScalarKind(o.kind), follow(blocks[o.a], paths_[o.x].offsets), r[o.c]);
+      break;
+    case Code::kAdd:
+      r[o.c] = r[o.a] + r[o.b];
+      break;
+    case Code::kSubtract:
+      r[o.c] = r[o.a] - r[o.b];
+      break;
+    case Code::kMultiply:
+      r[o.c] = r[o.a] * r[o.b];
+      break;
+    case Code::kDivide:
+      r[o.c] = r[o.a] / r[o.b];
+      break;
+    case Code::kNegate:
+      r[o.c] = -r[o.a];
+      break;
+    case Code::kSquareRoot:
+      r[o.c] = std::sqrt(r[o.a]);
+      break;
+    case Code::kCopy:
+      r[o.c] = r[o.a];
+      break;
+    case Code::kSelect:
+      r[o.c] = r[o.a] != 0.0 ? r[o.b] : r[o.x];
+      break;
+    case Code::kOther:
+      r[o.c] = evaluate(ScalarOperation(o.kind), r[o.a], r[o.b], 0);
+      break;
+    case Code::kCall:
+      call(calls_[o.x], blocks);
+      break;
+    case Code::kGuard: {
+      const Guard& guard = guards_[o.x];
+      if (count_of(follow(blocks[guard.block], guard.offsets), guard.list, guard.element_size) <=
+          guard.index) {
+        return false;
+      }
+      break;
+    }
+  }
+  return true;
+}
+
+bool Converter::step_at(const Converter* converter, std::uint64_t index, double* registers,
+                        char* const* blocks) {
+  return converter->step(converter->operations_[index], registers, blocks);
+}
+
 bool Converter::run(const void* source, void* target) const {
   double r[kMaximumRegisters];
   alignas(64) char scratch[kMaximumScratch];
@@ -118,95 +201,13 @@ bool Converter::run(const void* source, void* target) const {
   blocks[0] = const_cast<char*>(static_cast<const char*>(source));
   blocks[1] = static_cast<char*>(target);
   for (std::size_t i = 0; i < scratch_.size(); ++i) blocks[i + 2] = scratch + scratch_[i];
-  for (std::size_t i = 0; i < constants_.size(); ++i) r[i] = constants_[i];
-
-  const Place* const places = places_.data();
-  for (const Operation* at = operations_.data();; ++at) {
-    const Operation& o = *at;
-    switch (o.code) {
-      case Code::kEnd:
-        return true;
-      case Code::kLoadDoubles:
-        for (const Place *place = places + o.x, *end = places + o.y; place != end; ++place) {
-          r[place->number] = read_as<double>(blocks[o.a] + place->offset);
-        }
-        break;
-      case Code::kStoreDoubles:
-        for (const Place *place = places + o.x, *end = places + o.y; place != end; ++place) {
-          write_as(blocks[o.a] + place->offset, r[place->number]);
-        }
-        break;
-      case Code::kLoadDouble:
-        r[o.c] = read_as<double>(blocks[o.a] + o.x);
-        break;
-      case Code::kLoad:
-        r[o.c] = load(ScalarKind(o.kind), blocks[o.a] + o.x);
-        break;
-      case Code::kLoadPath:
-        r[o.c] = load(ScalarKind(o.kind), follow(blocks[o.a], paths_[o.x].offsets));
-        break;
-      case Code::kStoreDouble:
-        write_as(blocks[o.a] + o.x, r[o.c]);
-        break;
-      case Code::kStore:
-        store(ScalarKind(o.kind), blocks[o.a] + o.x, r[o.c]);
-        break;
-      case Code::kStorePath:
-        store(ScalarKind(o.kind), follow(blocks[o.a], paths_[o.x].offsets), r[o.c]);
-        break;
-      case Code::kMoveDouble:
-        write_as(blocks[o.b] + o.y, read_as<double>(blocks[o.a] + o.x));
-        break;
-      case Code::kAdd:
-        r[o.c] = r[o.a] + r[o.b];
-        break;
-      case Code::kSubtract:
-        r[o.c] = r[o.a] - r[o.b];
-        break;
-      case Code::kMultiply:
-        r[o.c] = r[o.a] * r[o.b];
-        break;
-      case Code::kDivide:
-        r[o.c] = r[o.a] / r[o.b];
-        break;
-      case Code::kNegate:
-        r[o.c] = -r[o.a];
-        break;
-      case Code::kSquareRoot:
-        r[o.c] = std::sqrt(r[o.a]);
-        break;
-      case Code::kCopy:
-        r[o.c] = r[o.a];
-        break;
-      case Code::kSelect:
-        r[o.c] = r[o.a] != 0.0 ? r[o.b] : r[o.x];
-        break;
-      case Code::kOther:
-        r[o.c] = evaluate(ScalarOperation(o.kind), r[o.a], r[o.b], 0);
-        break;
-      case Code::kKernel: {
-        const KernelCall& kernel = kernels_[o.x];
-        char* const registers = reinterpret_cast<char*>(r);
-        kernel.function(
-            kernel.inputs == KernelCall::kRegisters ? registers : blocks[kernel.inputs],
-            offsets_.data() + kernel.from,
-            kernel.outputs == KernelCall::kRegisters ? registers : blocks[kernel.outputs],
-            offsets_.data() + kernel.to);
-        break;
-      }
-      case Code::kCall:
-        call(calls_[o.x], blocks);
-        break;
-      case Code::kGuard: {
-        const Guard& guard = guards_[o.x];
-        if (count_of(follow(blocks[guard.block], guard.offsets), guard.list, guard.element_size) <=
-            guard.index) {
-          return false;
-        }
-        break;
-      }
-    }
+  if (needs_constants_) {
+    for (std::size_t i = 0; i < constants_.size(); ++i) r[i] = constants_[i];
   }
+  if (compiled_) return compiled_(r, blocks, this);
+  const Operation* at = operations_.data();
+  while (step(*at, r, blocks)) ++at;
+  return at->code == Code::kEnd;
 }
 
 }  // namespace sinew::data

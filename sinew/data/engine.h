@@ -1,12 +1,14 @@
 // Conversions of live values while a program runs: the same straight-line code as emit.h writes, as
-// a list of operations that a small interpreter executes. Making a Converter allocates, resolves
-// library functions and may fail; running it does neither, takes no lock and always does the same
-// number of operations.
+// a list of operations. On x86-64 the list becomes machine code when the Converter is made;
+// elsewhere a small interpreter executes it, with the same result bit by bit. Making a Converter
+// allocates, resolves library functions and may fail; running it does neither, takes no lock and
+// always does the same number of operations.
 //
 //   const Converter converter = make_converter(library, plan);
 //   converter.run(&source, &target);
 //
-// `source` and `target` are values of the plan's prototypes, laid out as their representations say.
+// `source` and `target` are values of the plan's prototypes, laid out as their representations say;
+// they may be the same memory.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +18,6 @@
 #include <string>
 #include <vector>
 
-#include "sinew/data/kernels.h"
 #include "sinew/data/program.h"
 
 namespace sinew::data {
@@ -27,11 +28,10 @@ constexpr std::size_t kMaximumScratch = 16 * 1024;
 constexpr std::size_t kMaximumBlocks = 64;
 
 struct EngineOptions {
-  // Formulas that were compiled ahead run as one operation; see
-  // sinew/blocks/kernels/geometry_kernels.h.
-  std::span<const KernelEntry> kernels;
   // Where libraries of functions are looked for before the usual places.
   std::vector<std::string> library_directories;
+  // Keep to the interpreter where machine code would be possible.
+  bool interpret = false;
 };
 
 class Converter {
@@ -41,9 +41,14 @@ class Converter {
   bool run(const void* source, void* target) const;
 
   std::size_t operations() const { return operations_.size(); }
+  // Whether the operations became machine code.
+  bool compiled() const { return compiled_ != nullptr; }
 
  private:
   friend class ConverterBuilder;
+  friend class ConverterCompiler;
+  friend void compile(Converter& converter);
+  using Compiled = bool (*)(double* registers, char* const* blocks, const Converter* converter);
   enum class Code : std::uint8_t;
   struct Operation {
     Code code;
@@ -77,15 +82,12 @@ class Converter {
     void* function = nullptr;
     std::size_t input = 0, output = 0;  // blocks
   };
-  struct KernelCall {
-    Kernel function = nullptr;
-    // Blocks, or kRegisters; and where in offsets_ the places of the inputs and outputs begin.
-    static constexpr std::size_t kRegisters = static_cast<std::size_t>(-1);
-    std::size_t inputs = kRegisters, outputs = kRegisters;
-    std::size_t from = 0, to = 0;
-  };
 
   void call(const Call& call, char* const* blocks) const;
+  bool step(const Operation& operation, double* registers, char* const* blocks) const;
+  // The same for machine code to call.
+  static bool step_at(const Converter* converter, std::uint64_t index, double* registers,
+                      char* const* blocks);
 
   std::vector<Operation> operations_;
   std::vector<double> constants_;  // the first registers
@@ -93,10 +95,11 @@ class Converter {
   std::vector<Path> paths_;
   std::vector<Guard> guards_;
   std::vector<Call> calls_;
-  std::vector<KernelCall> kernels_;
-  std::vector<std::uint32_t> offsets_;
   std::vector<std::size_t> scratch_;  // where each intermediate block begins
   std::vector<std::shared_ptr<void>> libraries_;
+  std::shared_ptr<const void> code_;
+  Compiled compiled_ = nullptr;
+  bool needs_constants_ = true;  // among the registers
 };
 
 // Throws Error when a value has no fixed memory (JSON), a function's library or symbol is not

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "sinew/data/engine.h"
 #include "sinew/data/engine_code.h"
+#include "sinew/data/engine_compile.h"
 
 namespace sinew::data {
 
@@ -16,7 +16,7 @@ class ConverterBuilder {
  public:
   ConverterBuilder(const Library& library, const Plan& plan, const EngineOptions& options)
       : library_(library), plan_(plan), options_(options) {
-    program_ = lower(library, plan, [&](Index formula) { return find_kernel(formula) != nullptr; });
+    program_ = lower(library, plan);
   }
 
   Converter build() {
@@ -25,17 +25,14 @@ class ConverterBuilder {
     add_guards();
     for (const auto& stage : program_.stages) {
       // Everything is computed before anything is stored: source and target may be the same memory.
-      for (const auto& store : stage.stores) {
-        if (!moves_directly(store)) compute(store.value);
-      }
-      for (const auto& store : stage.stores) {
-        if (!stored_.count(&store)) add_store(store);
-      }
+      for (const auto& store : stage.stores) compute(store.value);
+      for (const auto& store : stage.stores) add_store(store);
       for (const auto& call : stage.calls) add_call(call);
     }
     add({Code::kEnd, 0, 0, 0, 0, 0, 0});
     gather(Code::kLoadDouble, Code::kLoadDoubles);
     gather(Code::kStoreDouble, Code::kStoreDoubles);
+    if (!options_.interpret) compile(result_);
     return std::move(result_);
   }
 
@@ -48,15 +45,6 @@ class ConverterBuilder {
   [[noreturn]] void fail(const std::string& what, const std::string& remedy) const {
     const Prototype& prototype = library_.prototypes[plan_.source];
     throw Error(Problem{prototype.place, prototype.name, what, remedy, Severity::kError, {}});
-  }
-
-  Kernel find_kernel(Index formula) const {
-    if (options_.kernels.empty()) return nullptr;
-    const std::uint64_t wanted = fingerprint(library_.formulas[formula].formula);
-    for (const KernelEntry& entry : options_.kernels) {
-      if (entry.fingerprint == wanted) return entry.function;
-    }
-    return nullptr;
   }
 
   const Type& type_of(Index block) const {
@@ -103,9 +91,6 @@ class ConverterBuilder {
     for (const auto& stage : program_.stages) {
       for (const auto& store : stage.stores) needed.push_back(store.value);
     }
-    for (const auto& use : program_.formula_uses) {
-      needed.insert(needed.end(), use.inputs.begin(), use.inputs.end());
-    }
     const std::vector<bool> live = program_.graph.live(needed);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (nodes[i].operation != Op::kConstant || !live[i]) continue;
@@ -129,9 +114,7 @@ class ConverterBuilder {
         add({Code::kGuard, 0, 0, 0, 0, static_cast<std::uint32_t>(result_.guards_.size() - 1), 0});
       }
     };
-    for (const auto& load : program_.loads) {
-      if (load.block != ConversionProgram::Load::kOfFormula) guard(load.block, load.access);
-    }
+    for (const auto& load : program_.loads) guard(load.block, load.access);
     for (const auto& stage : program_.stages) {
       for (const auto& store : stage.stores) guard(store.block, store.access);
     }
@@ -144,17 +127,6 @@ class ConverterBuilder {
     return static_cast<std::uint32_t>(result_.paths_.size() - 1);
   }
 
-  // A double that is only copied, between different blocks, is one operation.
-  bool moves_directly(const ConversionProgram::Store& store) const {
-    const ScalarNode& node = program_.graph.nodes()[store.value];
-    if (node.operation != Op::kInput) return false;
-    const auto& load = program_.loads[node.a];
-    return load.block != ConversionProgram::Load::kOfFormula && load.block != store.block &&
-           is_direct(load.access) && is_direct(store.access) &&
-           load.access.scalar == ScalarKind::kFloat64 &&
-           store.access.scalar == ScalarKind::kFloat64 && plan_.source != plan_.target;
-  }
-
   void compute(Node wanted) {
     std::vector<std::pair<Node, bool>> stack = {{wanted, false}};
     while (!stack.empty()) {
@@ -163,7 +135,7 @@ class ConverterBuilder {
       if (registers_.count(at)) continue;
       const ScalarNode& node = program_.graph.nodes()[at];
       if (node.operation == Op::kInput) {
-        add_load(at, program_.loads[node.a], stack, ready);
+        add_load(at, program_.loads[node.a]);
         continue;
       }
       if (!ready) {
@@ -178,28 +150,9 @@ class ConverterBuilder {
     }
   }
 
-  void add_load(Node at, const ConversionProgram::Load& load,
-                std::vector<std::pair<Node, bool>>& stack, bool ready) {
-    if (load.block == ConversionProgram::Load::kOfFormula) {
-      const auto& use = program_.formula_uses[load.formula_use];
-      const auto done = formula_results_.find(load.formula_use);
-      if (done == formula_results_.end() && !ready) {
-        stack.push_back({at, true});
-        for (const Node input : use.inputs) {
-          if (!shared_block(use.inputs)) stack.push_back({input, false});
-        }
-        return;
-      }
-      if (done == formula_results_.end()) add_kernel(load.formula_use, use);
-      registers_[at] = static_cast<std::uint16_t>(formula_results_[load.formula_use] + load.output);
-      return;
-    }
+  void add_load(Node at, const ConversionProgram::Load& load) {
     const std::uint16_t result = new_register();
     registers_[at] = result;
-    emit_load(load, result);
-  }
-
-  void emit_load(const ConversionProgram::Load& load, std::uint16_t result) {
     const auto kind = static_cast<std::uint8_t>(load.access.scalar);
     const auto block = static_cast<std::uint16_t>(load.block);
     if (!is_direct(load.access)) {
@@ -208,12 +161,6 @@ class ConverterBuilder {
       add({load.access.scalar == ScalarKind::kFloat64 ? Code::kLoadDouble : Code::kLoad, kind,
            block, 0, result, static_cast<std::uint32_t>(load.access.offsets[0]), 0});
     }
-  }
-
-  bool in_memory(Node node) const {
-    const ScalarNode& it = program_.graph.nodes()[node];
-    return it.operation == Op::kInput &&
-           program_.loads[it.a].block != ConversionProgram::Load::kOfFormula;
   }
 
   // Several loads (or stores) of one block in a row become one operation.
@@ -235,114 +182,6 @@ class ConverterBuilder {
                         static_cast<std::uint32_t>(result_.places_.size())});
     }
     operations = std::move(result);
-  }
-
-  // A kernel reads and writes a value's memory itself where its numbers are doubles there, all in
-  // one block; otherwise registers.
-  void add_kernel(Index use_index, const ConversionProgram::FormulaUse& use) {
-    const Formula& formula = library_.formulas[use.formula].formula;
-    Converter::KernelCall call;
-    call.function = find_kernel(use.formula);
-    call.from = result_.offsets_.size();
-    const auto block = shared_block(use.inputs);
-    for (const Node input : use.inputs) {
-      if (block) {
-        const auto& load = program_.loads[program_.graph.nodes()[input].a];
-        result_.offsets_.push_back(static_cast<std::uint32_t>(load.access.offsets[0]));
-        continue;
-      }
-      compute(input);
-      result_.offsets_.push_back(static_cast<std::uint32_t>(registers_.at(input) * sizeof(double)));
-    }
-    if (block) call.inputs = *block;
-    call.to = result_.offsets_.size();
-    const auto stores = direct_stores(use_index, formula.outputs.size());
-    if (stores.empty()) {
-      const std::uint16_t first = new_register(formula.outputs.size());
-      formula_results_[use_index] = first;
-      for (std::size_t i = 0; i < formula.outputs.size(); ++i) {
-        result_.offsets_.push_back(static_cast<std::uint32_t>((first + i) * sizeof(double)));
-      }
-    } else {
-      call.outputs = stores.front()->block;
-      formula_results_[use_index] = 0;  // nobody asks for its registers
-      for (const auto* store : stores) {
-        result_.offsets_.push_back(static_cast<std::uint32_t>(store->access.offsets[0]));
-        stored_.insert(store);
-      }
-    }
-    result_.kernels_.push_back(call);
-    add({Code::kKernel, 0, 0, 0, 0, static_cast<std::uint32_t>(result_.kernels_.size() - 1), 0});
-  }
-
-  static bool is_plain_double(const Access& access) {
-    return is_direct(access) && access.scalar == ScalarKind::kFloat64;
-  }
-
-  // The block where all of these lie as doubles; nothing where they do not, or have registers
-  // already.
-  std::optional<Index> shared_block(const std::vector<Node>& inputs) const {
-    std::optional<Index> block;
-    for (const Node input : inputs) {
-      if (!in_memory(input)) return std::nullopt;
-      const auto& load = program_.loads[program_.graph.nodes()[input].a];
-      if (!is_plain_double(load.access) || (block && *block != load.block)) return std::nullopt;
-      block = load.block;
-    }
-    return block;
-  }
-
-  // Where every output of a formula does nothing but go to one place, as a double, all in one block
-  // and one stage: these stores, by output. Otherwise none.
-  std::vector<const ConversionProgram::Store*> direct_stores(Index use_index,
-                                                             std::size_t outputs) const {
-    const auto output_of = [&](Node node) -> std::optional<Index> {
-      const ScalarNode& it = program_.graph.nodes()[node];
-      if (it.operation != Op::kInput) return std::nullopt;
-      const auto& load = program_.loads[it.a];
-      if (load.block != ConversionProgram::Load::kOfFormula || load.formula_use != use_index)
-        return std::nullopt;
-      return load.output;
-    };
-    std::vector<const ConversionProgram::Store*> stores(outputs, nullptr);
-    std::size_t found = 0;
-    for (const auto& stage : program_.stages) {
-      if (found > 0) break;
-      for (const auto& store : stage.stores) {
-        const auto output = output_of(store.value);
-        if (!output) continue;
-        if (stores[*output] || !is_plain_double(store.access)) return {};
-        stores[*output] = &store;
-        if (++found > 1 && store.block != stage.stores[first_of(stage, stores)].block) return {};
-      }
-    }
-    if (found != outputs) return {};
-    // No other operation, formula or later store may want the values.
-    for (const ScalarNode& node : program_.graph.nodes()) {
-      const int operands = node.operation == Op::kInput ? 0 : row(node.operation).operands;
-      const Node all[3] = {node.a, node.b, node.c};
-      for (int i = 0; i < operands; ++i) {
-        if (output_of(all[i])) return {};
-      }
-    }
-    for (const auto& use : program_.formula_uses) {
-      for (const Node input : use.inputs) {
-        if (output_of(input)) return {};
-      }
-    }
-    std::size_t uses = 0;
-    for (const auto& stage : program_.stages) {
-      for (const auto& store : stage.stores) uses += output_of(store.value).has_value();
-    }
-    return uses == outputs ? stores : std::vector<const ConversionProgram::Store*>{};
-  }
-
-  static std::size_t first_of(const ConversionProgram::Stage& stage,
-                              const std::vector<const ConversionProgram::Store*>& stores) {
-    for (std::size_t i = 0; i < stage.stores.size(); ++i) {
-      if (std::find(stores.begin(), stores.end(), &stage.stores[i]) != stores.end()) return i;
-    }
-    return 0;
   }
 
   void add_arithmetic(Node at, const ScalarNode& node) {
@@ -379,13 +218,6 @@ class ConverterBuilder {
   void add_store(const ConversionProgram::Store& store) {
     const auto kind = static_cast<std::uint8_t>(store.access.scalar);
     const auto block = static_cast<std::uint16_t>(store.block);
-    if (moves_directly(store)) {
-      const auto& load = program_.loads[program_.graph.nodes()[store.value].a];
-      add({Code::kMoveDouble, 0, static_cast<std::uint16_t>(load.block), block, 0,
-           static_cast<std::uint32_t>(load.access.offsets[0]),
-           static_cast<std::uint32_t>(store.access.offsets[0])});
-      return;
-    }
     const std::uint16_t value = registers_.at(store.value);
     if (!is_direct(store.access)) {
       add({Code::kStorePath, kind, block, 0, value, path(store.access), 0});
@@ -427,9 +259,11 @@ class ConverterBuilder {
   }
 
   void* find_symbol(const Function& function) {
-    if (function.context != "c99") {
+    // References and pointers are passed alike (Itanium C++ ABI, 3.1.2).
+    if (function.context != "c99" && !function.symbol.starts_with(kMangledPrefix)) {
       fail(fmt::format("the function '{}' is of the kind {}", function.name, function.context),
-           "only C functions can be called while a program runs; emit source code for others");
+           "functions of C++ are called while a program runs by their mangled name (fname = "
+           "\"_Z…\", see nm); or emit source code");
     }
     void* handle = nullptr;
     if (!function.library.empty()) {
@@ -465,8 +299,6 @@ class ConverterBuilder {
   ConversionProgram program_;
   Converter result_;
   std::map<Node, std::uint16_t> registers_;
-  std::map<Index, std::uint16_t> formula_results_;
-  std::set<const ConversionProgram::Store*> stored_;  // by a kernel
   std::size_t next_register_ = 0;
 };
 

@@ -15,8 +15,7 @@ enum class Converter::Code : std::uint8_t {
   kStoreDouble,  // the other way
   kStore,
   kStorePath,
-  kMoveDouble,  // from block a, byte x to block b, byte y
-  kAdd,         // c = a + b, and so on
+  kAdd,  // c = a + b, and so on
   kSubtract,
   kMultiply,
   kDivide,
@@ -25,7 +24,6 @@ enum class Converter::Code : std::uint8_t {
   kCopy,    // c = a
   kSelect,  // c = a != 0 ? b : x
   kOther,   // c = ScalarOperation(kind) of a and b
-  kKernel,  // x of the kernels
   kCall,    // x of the calls
   kGuard,   // x of the guards
 };

@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/base/error.h"
@@ -71,6 +72,9 @@ struct Prototype {
   std::vector<std::pair<std::string, Index>>
       members;  // composed or viewed: member and its prototype
 };
+
+// How the mangled names of C++ functions begin; such a symbol can be called like one of C.
+constexpr std::string_view kMangledPrefix = "_Z";
 
 struct Function {
   std::string name, context, library, symbol, header;

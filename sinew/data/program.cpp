@@ -18,8 +18,7 @@ struct Value {
 
 class Lowering {
  public:
-  Lowering(const Library& library, const Plan& plan, const std::function<bool(Index)>& whole)
-      : library_(library), whole_(whole) {
+  Lowering(const Library& library, const Plan& plan) : library_(library) {
     program_.blocks = {{"source", library.prototypes[plan.source].owner},
                        {"target", library.prototypes[plan.target].owner}};
     program_.stages.emplace_back();
@@ -110,7 +109,7 @@ class Lowering {
         return program_.graph.input(static_cast<std::uint32_t>(i));
       }
     }
-    program_.loads.push_back({block, access, label, 0, 0});
+    program_.loads.push_back({block, access, label});
     return program_.graph.input(static_cast<std::uint32_t>(program_.loads.size() - 1));
   }
 
@@ -144,25 +143,14 @@ class Lowering {
     std::vector<Node> inputs;
     for (const Value& value : state.values)
       inputs.push_back(affine(value.node, value.scale, value.offset));
-    std::vector<Node> results;
-    if (whole_ && whole_(edge.formula)) {
-      program_.formula_uses.push_back({edge.formula, std::move(inputs)});
-      for (Index i = 0; i < formula.outputs.size(); ++i) {
-        program_.loads.push_back(
-            {ConversionProgram::Load::kOfFormula, {}, {}, program_.formula_uses.size() - 1, i});
-        results.push_back(
-            program_.graph.input(static_cast<std::uint32_t>(program_.loads.size() - 1)));
-      }
-    } else {
-      const std::vector<Node> places = program_.graph.append(formula.graph, inputs);
-      for (const Node output : formula.outputs) results.push_back(places[output]);
-    }
+    const std::vector<Node> places = program_.graph.append(formula.graph, inputs);
     const Space& space = library_.spaces[edge.to];
     state.values.clear();
     std::size_t next = 0;
     for (const Space::Slot& slot : space.slots) {
-      state.values.push_back(
-          {slot.constant ? program_.graph.constant(*slot.constant) : results[next++], 1, 0});
+      state.values.push_back({slot.constant ? program_.graph.constant(*slot.constant)
+                                            : places[formula.outputs[next++]],
+                              1, 0});
     }
     state.space = edge.to;
   }
@@ -207,7 +195,6 @@ class Lowering {
   }
 
   const Library& library_;
-  const std::function<bool(Index)>& whole_;
   ConversionProgram program_;
 };
 
@@ -227,9 +214,8 @@ int ConversionProgram::operations() const {
   return count;
 }
 
-ConversionProgram lower(const Library& library, const Plan& plan,
-                        const std::function<bool(Index)>& whole) {
-  return Lowering(library, plan, whole).take();
+ConversionProgram lower(const Library& library, const Plan& plan) {
+  return Lowering(library, plan).take();
 }
 
 }  // namespace sinew::data

@@ -6,7 +6,6 @@
 // multiplication and one addition, or nothing.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,13 +25,6 @@ struct ConversionProgram {
     Index block = 0;
     Access access;
     std::string label;  // what it means
-    // Instead of memory: an output of a formula that is called as a whole.
-    static constexpr Index kOfFormula = static_cast<Index>(-1);
-    Index formula_use = 0, output = 0;
-  };
-  struct FormulaUse {
-    Index formula = 0;  // in the library
-    std::vector<ScalarGraph::Node> inputs;
   };
   struct Store {
     Index block = 0;
@@ -51,15 +43,12 @@ struct ConversionProgram {
   };
   std::vector<Block> blocks;
   std::vector<Load> loads;
-  std::vector<FormulaUse> formula_uses;
   ScalarGraph graph;
   std::vector<Stage> stages;
 
   int operations() const;  // loads, stores, calls and the arithmetic between them
 };
 
-// `whole` says of which formulas (of the library) calls are kept instead of their arithmetic.
-ConversionProgram lower(const Library& library, const Plan& plan,
-                        const std::function<bool(Index formula)>& whole = {});
+ConversionProgram lower(const Library& library, const Plan& plan);
 
 }  // namespace sinew::data

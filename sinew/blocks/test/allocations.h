@@ -1,0 +1,10 @@
+// How often this executable has asked for memory with new.
+#pragma once
+
+#include <cstddef>
+
+namespace sinew {
+
+std::size_t allocations();
+
+}  // namespace sinew
