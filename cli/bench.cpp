@@ -75,6 +75,7 @@ int run_bench(Arguments arguments) {
   std::string format = "text", level = "full";
   add_model_options(app, models_options);
   add_query_options(app, query);
+  add_derivative_option(app, query);
   app.add_option("--format", format, "text or json")
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();

@@ -20,6 +20,7 @@ int run_generate(Arguments arguments) {
   std::string name, target = "c", style = "flat", folder = ".";
   add_model_options(app, models_options);
   add_query_options(app, query);
+  add_derivative_option(app, query);
   app.add_option("--name", name, "Name of the function and the files (default: the query's)");
   app.add_option("--target", target, "c, or program: the program itself as JSON")
       ->check(CLI::IsMember({"c", "program"}))

@@ -39,4 +39,14 @@ void add_query_options(CLI::App& app, QueryOptions& options) {
   app.add_flag("--floating", options.floating, "The base moves freely");
 }
 
+void add_derivative_option(CLI::App& app, QueryOptions& options) {
+  app.add_option(
+         "--derivative", options.derivatives,
+         "OUT/IN, for example force/position,force.joint1/velocity: also the derivatives of "
+         "these outputs by these inputs, each a quantity (all of it) or a name; outputs "
+         "named like force.joint1/position.joint2, none where it is always zero")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
 }  // namespace sinew::cli

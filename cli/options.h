@@ -16,5 +16,7 @@ std::optional<int> parse(CLI::App& app, Arguments arguments);
 
 void add_model_options(CLI::App& app, ModelOptions& options);
 void add_query_options(CLI::App& app, QueryOptions& options);
+// For commands that make a program.
+void add_derivative_option(CLI::App& app, QueryOptions& options);
 
 }  // namespace sinew::cli

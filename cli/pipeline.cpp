@@ -7,6 +7,7 @@
 #include "sinew/algorithm/read.h"
 #include "sinew/model/load.h"
 #include "sinew/model/normalise.h"
+#include "sinew/program/derivatives.h"
 #include "sinew/program/lower.h"
 #include "sinew/program/program_json.h"
 #include "sinew/rdf/catalogue/catalogue.h"
@@ -96,12 +97,15 @@ program::Program program_of(Models& models, const ModelOptions& files, const Que
     const std::string& file = files.files.front();
     program::Program program = program::from_json(read_input(file), file);
     if (!name.empty()) program.name = name;
+    program::add_derivatives(program, options.derivatives);
     return program;
   }
   const graph::Id algorithm = algorithm_of(models, files, options);
   std::string program_name = name;
   if (program_name.empty()) program_name = options.solver.empty() ? "program" : options.solver;
-  return lowered(models, algorithm, program_name);
+  program::Program program = lowered(models, algorithm, program_name);
+  program::add_derivatives(program, options.derivatives);
+  return program;
 }
 
 program::Program lowered(const Models& models, graph::Id algorithm, const std::string& name) {

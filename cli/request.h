@@ -24,6 +24,7 @@ struct QueryOptions {
   std::vector<std::string> tips;
   std::string gravity;  // "x,y,z" in m/s^2, seen from the base; empty: the model's
   bool floating = false;
+  std::vector<std::string> derivatives;  // "OUT/IN" each: sinew/program/derivatives.h
 };
 
 // "x,y,z" as three finite numbers; throws Error naming `option` otherwise.

@@ -53,6 +53,7 @@ int run_run(Arguments arguments) {
   bool interpret = false;
   add_model_options(app, models_options);
   add_query_options(app, query);
+  add_derivative_option(app, query);
   app.add_option("--input", input, "CSV file with the inputs, - for standard input")->required();
   app.add_option("-o,--output", output, "CSV file for the results (default: standard output)");
   app.add_flag("--interpret", interpret, "Evaluate closure by closure instead of compiling");

@@ -154,6 +154,15 @@ GeneratedCode generate_c(const program::Program& program, const COptions& option
                         Severity::kError,
                         {}});
   }
+  if (options.style == Style::kReadable && !program.derivatives.empty()) {
+    throw Error(Problem{{},
+                        {},
+                        fmt::format("no function of the support library is the derivative '{}'",
+                                    program.derivatives.front().name),
+                        "generate derivatives in the flat style",
+                        Severity::kError,
+                        {}});
+  }
   const program::ScalarProgram scalar = program::scalar_program(program, options.passes);
   const program::Program& live = scalar.program;
   const program::Computation& computation = scalar.computation;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sinew/program/kernels.h"
+#include "sinew/program/trace.h"
 #include "sinew/program/validate.h"
 
 namespace sinew::backend {
@@ -48,9 +49,27 @@ Interpreter::Interpreter(const program::Program& program) {
     const std::vector<double>& value = program.variables[slot.variable].value;
     first_states_.insert(first_states_.end(), value.begin(), value.end());
   }
+  if (program.derivatives.empty()) return;
+  graph_.emplace(program::trace(program));
+  graph_in_.resize(interface_.in_size + interface_.state_size);
+  graph_out_.resize(interface_.out_size + interface_.state_size);
+  reset();
+}
+
+// States lie behind the inputs, and their next values behind the outputs.
+void Interpreter::evaluate_graph(const double* in, double* out) {
+  std::copy_n(in, interface_.in_size, graph_in_.begin());
+  graph_->evaluate(graph_in_.data(), graph_out_.data());
+  std::copy_n(graph_out_.begin(), interface_.out_size, out);
+  std::copy_n(graph_out_.begin() + interface_.out_size, interface_.state_size,
+              graph_in_.begin() + interface_.in_size);
 }
 
 void Interpreter::evaluate(const double* in, double* out) {
+  if (graph_) {
+    evaluate_graph(in, out);
+    return;
+  }
   for (const Copy& c : inputs_) std::copy_n(in + c.offset, c.size, numbers_.data() + c.place);
   for (const Step& step : steps_) {
     double* const* arguments = arguments_.data() + step.first_argument;
@@ -63,6 +82,8 @@ void Interpreter::evaluate(const double* in, double* out) {
 }
 
 void Interpreter::reset() {
+  if (graph_)
+    std::copy(first_states_.begin(), first_states_.end(), graph_in_.begin() + interface_.in_size);
   for (const Copy& c : states_) {
     std::copy_n(first_states_.data() + c.offset, c.size, numbers_.data() + c.place);
   }

@@ -1,12 +1,15 @@
 // Evaluates a program closure by closure with the operators' functions for double. It needs no
-// compiler, starts at once, and is the reference for every other back end.
+// compiler, starts at once, and is the reference for every other back end. A program with
+// derivatives, which no closure computes, is evaluated number by number instead.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "sinew/backend/graph_interpreter.h"
 #include "sinew/program/interface.h"
 #include "sinew/program/program.h"
 
@@ -42,7 +45,11 @@ class Interpreter {
     std::size_t size;
   };
 
+  void evaluate_graph(const double* in, double* out);
+
   program::Interface interface_;
+  std::optional<GraphInterpreter> graph_;  // of a program with derivatives
+  std::vector<double> graph_in_, graph_out_;
   std::vector<double> numbers_;  // every variable, one after the other
   std::vector<double*> arguments_;
   std::vector<std::uint32_t> sizes_;

@@ -20,6 +20,37 @@ Json slots(const program::Program& program, const std::vector<program::Slot>& sl
   return list;
 }
 
+// Rows and columns are named as the columns of a table are (NAME, or NAME[k] of several numbers);
+// an entry is [row, column, offset in the outputs]. Those that are missing are zero in every state.
+Json derivatives(const program::Program& program, const program::Interface& interface) {
+  std::vector<std::uint32_t> offset(program.variables.size());
+  for (const program::Slot& slot : interface.outputs) offset[slot.variable] = slot.offset;
+  Json list = Json::array();
+  for (const program::Derivative& derivative : program.derivatives) {
+    std::vector<std::uint32_t> first(program.variables.size());
+    const auto names = [&](const std::vector<std::uint32_t>& variables) {
+      Json result = Json::array();
+      for (const std::uint32_t variable : variables) {
+        const program::Variable& v = program.variables[variable];
+        first[variable] = static_cast<std::uint32_t>(result.size());
+        for (std::uint32_t k = 0; k < v.size; ++k)
+          result.push_back(v.size == 1 ? v.name : v.name + "[" + std::to_string(k) + "]");
+      }
+      return result;
+    };
+    Json rows = names(derivative.of), columns = names(derivative.by), entries = Json::array();
+    for (const program::DerivativeEntry& entry : derivative.entries) {
+      entries.push_back({first[entry.of] + entry.of_number, first[entry.by] + entry.by_number,
+                         offset[entry.variable]});
+    }
+    list.push_back({{"name", derivative.name},
+                    {"rows", std::move(rows)},
+                    {"columns", std::move(columns)},
+                    {"entries", std::move(entries)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string sidecar(const program::Program& program, const program::Interface& interface,
@@ -62,6 +93,7 @@ std::string sidecar(const program::Program& program, const program::Interface& i
                          {"inputs", slots(program, interface.inputs)},
                          {"outputs", slots(program, interface.outputs)},
                          {"states", slots(program, interface.states)},
+                         {"derivatives", derivatives(program, interface)},
                          {"constants", std::move(constants)},
                          {"snapped", std::move(snaps)},
                          {"operations",

@@ -38,6 +38,15 @@ Program without_dead_closures(const Program& program) {
     result.schedule.push_back(static_cast<std::uint32_t>(result.closures.size()));
     result.closures.push_back(std::move(closure));
   }
+  // Rows, columns and entries are outputs and inputs, which all stay.
+  result.derivatives = program.derivatives;
+  for (Derivative& derivative : result.derivatives) {
+    for (std::uint32_t& variable : derivative.of) variable = moved[variable];
+    for (std::uint32_t& variable : derivative.by) variable = moved[variable];
+    for (DerivativeEntry& entry : derivative.entries)
+      for (std::uint32_t* variable : {&entry.variable, &entry.of, &entry.by})
+        *variable = moved[*variable];
+  }
   return result;
 }
 

@@ -37,12 +37,28 @@ struct Closure {
   std::vector<std::uint32_t> arguments;  // variable indices, in the order of the operator's ports
 };
 
+// A partial derivative of one number by another, and the variable that hands it out.
+struct DerivativeEntry {
+  std::uint32_t variable = 0;           // an output of one number, written by no closure
+  std::uint32_t of = 0, of_number = 0;  // an output, and which of its numbers
+  std::uint32_t by = 0, by_number = 0;  // an input, and which of its numbers
+};
+
+// What was asked for with OUT/IN: the Jacobian of some outputs with respect to some inputs
+// (derivatives.h). Entries that are zero in every state are left out.
+struct Derivative {
+  std::string name;                   // "force/position"
+  std::vector<std::uint32_t> of, by;  // variables: the Jacobian's rows and columns, in this order
+  std::vector<DerivativeEntry> entries;
+};
+
 struct Program {
   std::string name;
   std::string iri;  // of the algorithm model
   std::vector<Variable> variables;
   std::vector<Closure> closures;
   std::vector<std::uint32_t> schedule;  // closure indices
+  std::vector<Derivative> derivatives;
 };
 
 }  // namespace sinew::program

@@ -155,6 +155,70 @@ Variable read_variable(const Json& json, const std::string& file, std::size_t nu
   return v;
 }
 
+std::vector<std::uint32_t> read_names(
+    Object& object, const char* name,
+    const std::unordered_map<std::string, std::uint32_t>& by_name) {
+  std::vector<std::uint32_t> variables;
+  for (const Json& item : object.list(name)) {
+    const auto at = item.is_string() ? by_name.find(item.get<std::string>()) : by_name.end();
+    if (at == by_name.end())
+      object.fault(fmt::format("has a '{}' that is no variable", name),
+                   "name variables of this program");
+    variables.push_back(at->second);
+  }
+  return variables;
+}
+
+// Entries are written as [variable, of, number, by, number].
+Derivative read_derivative(const Json& json, const std::string& file, std::size_t number,
+                           const std::unordered_map<std::string, std::uint32_t>& by_name) {
+  Object object(json, fmt::format("derivative {}", number), file);
+  Derivative derivative;
+  derivative.name = object.text("name");
+  derivative.of = read_names(object, "of", by_name);
+  derivative.by = read_names(object, "by", by_name);
+  for (const Json& entry : object.list("entries")) {
+    const auto variable = [&](std::size_t place) {
+      const auto at = entry.is_array() && entry.size() == 5 && entry[place].is_string()
+                          ? by_name.find(entry[place].get<std::string>())
+                          : by_name.end();
+      if (at == by_name.end())
+        object.fault("has an entry without its variables",
+                     "write [variable, of, number, by, number]");
+      return at->second;
+    };
+    const auto count = [&](std::size_t place) {
+      if (!entry[place].is_number_unsigned() ||
+          entry[place].get<std::uint64_t>() > kMaximumVariableSize)
+        object.fault("has an entry with a number that is none", "write a whole number");
+      return static_cast<std::uint32_t>(entry[place].get<std::uint64_t>());
+    };
+    derivative.entries.push_back({variable(0), variable(1), count(2), variable(3), count(4)});
+  }
+  object.finish({"name", "of", "by", "entries"});
+  return derivative;
+}
+
+Json names_of(const Program& program, const std::vector<std::uint32_t>& variables) {
+  Json names = Json::array();
+  for (const std::uint32_t variable : variables)
+    names.push_back(program.variables.at(variable).name);
+  return names;
+}
+
+Json to_json(const Program& program, const Derivative& derivative) {
+  Json entries = Json::array();
+  for (const DerivativeEntry& entry : derivative.entries) {
+    entries.push_back(
+        Json::array({program.variables.at(entry.variable).name, program.variables.at(entry.of).name,
+                     entry.of_number, program.variables.at(entry.by).name, entry.by_number}));
+  }
+  return {{"name", derivative.name},
+          {"of", names_of(program, derivative.of)},
+          {"by", names_of(program, derivative.by)},
+          {"entries", std::move(entries)}};
+}
+
 }  // namespace
 
 std::string to_json(const Program& program) {
@@ -184,12 +248,18 @@ std::string to_json(const Program& program) {
                         {"about", c.about},
                         {"arguments", std::move(arguments)}});
   }
-  const Json document = {{"sinew-program", kProgramJsonVersion},
-                         {"name", program.name},
-                         {"iri", program.iri},
-                         {"variables", std::move(variables)},
-                         {"closures", std::move(closures)},
-                         {"schedule", program.schedule}};
+  Json document = {{"sinew-program", kProgramJsonVersion},
+                   {"name", program.name},
+                   {"iri", program.iri},
+                   {"variables", std::move(variables)},
+                   {"closures", std::move(closures)},
+                   {"schedule", program.schedule}};
+  if (!program.derivatives.empty()) {
+    Json derivatives = Json::array();
+    for (const Derivative& derivative : program.derivatives)
+      derivatives.push_back(to_json(program, derivative));
+    document["derivatives"] = std::move(derivatives);
+  }
   return document.dump(1) + "\n";
 }
 
@@ -237,7 +307,14 @@ Program from_json(std::string_view text, const std::string& file) {
     }
     program.schedule.push_back(static_cast<std::uint32_t>(index.get<std::uint64_t>()));
   }
-  object.finish({"sinew-program", "name", "iri", "variables", "closures", "schedule"});
+  if (document.contains("derivatives")) {
+    for (const Json& json : object.list("derivatives")) {
+      program.derivatives.push_back(
+          read_derivative(json, file, program.derivatives.size(), by_name));
+    }
+  }
+  object.finish(
+      {"sinew-program", "name", "iri", "variables", "closures", "schedule", "derivatives"});
 
   Report report;
   validate(program, report);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -13,17 +14,26 @@ namespace sinew::program {
 namespace {
 
 constexpr std::uint32_t kNobody = 0xffffffffU;
+constexpr std::uint32_t kDerivative = 0xfffffffeU;
 
 class Validator {
  public:
   Validator(const Program& program, Report& report)
-      : program_(program), report_(report), writer_(program.variables.size(), kNobody) {}
+      : program_(program),
+        report_(report),
+        writer_(program.variables.size(), kNobody),
+        is_entry_(program.variables.size(), false) {
+    for (const Derivative& derivative : program.derivatives)
+      for (const DerivativeEntry& entry : derivative.entries)
+        if (entry.variable < is_entry_.size()) is_entry_[entry.variable] = true;
+  }
 
   void run() {
     for (const Variable& variable : program_.variables) check_variable(variable);
     check_names();
     std::vector<bool> sound(program_.closures.size());
     for (std::size_t i = 0; i < sound.size(); ++i) sound[i] = check_closure(program_.closures[i]);
+    for (const Derivative& derivative : program_.derivatives) check_derivative(derivative);
     check_schedule(sound);
     check_outputs();
   }
@@ -121,6 +131,40 @@ class Validator {
     return sound;
   }
 
+  // Rows are outputs, columns inputs, and every entry has an output of one number to itself.
+  void check_derivative(const Derivative& derivative) {
+    const auto complain = [&](const std::string& what, const char* remedy) {
+      fault(program_.iri, fmt::format("derivative '{}': {}", derivative.name, what), remedy);
+    };
+    const auto known = [&](std::uint32_t variable) { return variable < program_.variables.size(); };
+    const auto among = [](const std::vector<std::uint32_t>& list, std::uint32_t variable) {
+      return std::find(list.begin(), list.end(), variable) != list.end();
+    };
+    for (const std::uint32_t row : derivative.of) {
+      if (!known(row) || !program_.variables[row].output || is_entry_[row])
+        complain("a row is no output", "differentiate outputs of the program");
+    }
+    for (const std::uint32_t column : derivative.by) {
+      if (!known(column) || program_.variables[column].role != Role::kInput)
+        complain("a column is no input", "differentiate by inputs of the program");
+    }
+    for (const DerivativeEntry& entry : derivative.entries) {
+      if (!known(entry.variable) || !among(derivative.of, entry.of) ||
+          !among(derivative.by, entry.by) || !known(entry.of) || !known(entry.by) ||
+          entry.of_number >= program_.variables[entry.of].size ||
+          entry.by_number >= program_.variables[entry.by].size) {
+        complain("an entry is outside its rows and columns", "name a number of each");
+        continue;
+      }
+      const Variable& v = program_.variables[entry.variable];
+      if (v.role != Role::kInternal || !v.output || v.size != 1)
+        complain(fmt::format("'{}' cannot hold an entry", v.name), "use an output of one number");
+      if (writer_[entry.variable] != kNobody)
+        complain(fmt::format("'{}' holds two entries", v.name), "use one variable for each");
+      writer_[entry.variable] = kDerivative;
+    }
+  }
+
   void check_schedule(const std::vector<bool>& sound) {
     std::vector<bool> scheduled(program_.closures.size(), false);
     for (const std::uint32_t index : program_.schedule) {
@@ -152,7 +196,7 @@ class Validator {
 
   void check_read(const Closure& closure, std::uint32_t variable) {
     const Variable& v = program_.variables[variable];
-    if (v.role != Role::kInternal || writer_[variable] != kNobody) return;
+    if (v.role != Role::kInternal || (writer_[variable] != kNobody && !is_entry_[variable])) return;
     fault(closure.iri,
           fmt::format("'{}' reads '{}' <{}> before anything has written it", closure.operation,
                       v.name, v.iri),
@@ -175,6 +219,11 @@ class Validator {
               fmt::format("'{}' both reads and writes '{}' <{}>", closure.operation, v.name, v.iri),
               "write to another variable");
       }
+    }
+    if (writer_[variable] == kDerivative) {
+      fault(closure.iri, fmt::format("'{}' writes '{}', a derivative", closure.operation, v.name),
+            "write to another variable");
+      return;
     }
     if (writer_[variable] != kNobody) {
       fault(closure.iri,
@@ -199,6 +248,7 @@ class Validator {
   const Program& program_;
   Report& report_;
   std::vector<std::uint32_t> writer_;  // closure that has written each variable so far
+  std::vector<bool> is_entry_;         // whether each variable is an entry of a derivative
 };
 
 }  // namespace

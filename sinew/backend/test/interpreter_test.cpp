@@ -9,6 +9,7 @@
 
 #include "serial_chain.h"
 #include "sinew/base/error.h"
+#include "sinew/program/derivatives.h"
 
 // Every allocation of this test program is counted.
 namespace {
@@ -56,6 +57,22 @@ TEST(Interpreter, TakesNoMemoryWhileItEvaluates) {
   backend::Interpreter interpreter(test::inverse_dynamics(test::mixed_chain()));
   const std::vector<double> in = random_inputs(21, 1);
   std::vector<double> out(7);
+  const std::size_t before = allocations;
+  for (int k = 0; k < 100; ++k) interpreter.evaluate(in.data(), out.data());
+  interpreter.reset();
+  EXPECT_EQ(allocations, before);
+}
+
+TEST(Interpreter, EvaluatesDerivativesWithoutAllocating) {
+  program::Program program = test::inverse_dynamics(test::mixed_chain());
+  const std::string some_input =
+      program.variables[program::interface_of(program).inputs[0].variable].name;
+  const std::string some_output =
+      program.variables[program::interface_of(program).outputs[0].variable].name;
+  program::add_derivatives(program, std::vector<std::string>{some_output + "/" + some_input});
+  backend::Interpreter interpreter(program);
+  const std::vector<double> in = random_inputs(interpreter.in_size(), 1);
+  std::vector<double> out(interpreter.out_size());
   const std::size_t before = allocations;
   for (int k = 0; k < 100; ++k) interpreter.evaluate(in.data(), out.data());
   interpreter.reset();
