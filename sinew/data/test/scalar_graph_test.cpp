@@ -5,7 +5,6 @@
 
 #include "sinew/base/error.h"
 #include "sinew/data/formula.h"
-#include "sinew/data/kernels.h"
 
 namespace sinew::data {
 namespace {
@@ -56,16 +55,6 @@ TEST(ScalarGraph, SharesEqualNodesAndFoldsConstants) {
   EXPECT_TRUE(graph.is_constant(graph.apply(Op::kMultiply, x, graph.constant(0)), 0));
   EXPECT_TRUE(graph.is_constant(graph.apply(Op::kAdd, graph.constant(2), graph.constant(3)), 5));
   EXPECT_EQ(graph.apply(Op::kNegate, graph.apply(Op::kNegate, x)), x);
-}
-
-TEST(Kernels, AreKnownByWhatTheyCompute) {
-  const std::vector<std::string> inputs = {"x", "y"}, renamed = {"a", "b"}, outputs = {"z"},
-                                 other = {"q"};
-  const auto first = parse_formula("let t = x + y; z = t * t", {}, inputs, outputs);
-  const auto same = parse_formula("let s = a + b; q = s * s", {}, renamed, other);
-  const auto different = parse_formula("let t = x + y; z = t * x", {}, inputs, outputs);
-  EXPECT_EQ(fingerprint(first), fingerprint(same));
-  EXPECT_NE(fingerprint(first), fingerprint(different));
 }
 
 }  // namespace
