@@ -17,18 +17,29 @@ int run_generate(Arguments arguments) {
       "sinew generate");
   ModelOptions models_options;
   QueryOptions query;
-  std::string name, target = "c", style = "flat", folder = ".";
+  std::string name, target = "c", style = "flat", scalar = "double", folder = ".";
+  program::PartialOptions partial;
   add_model_options(app, models_options);
   add_query_options(app, query);
   add_derivative_option(app, query);
   app.add_option("--name", name, "Name of the function and the files (default: the query's)");
-  app.add_option("--target", target, "c, or program: the program itself as JSON")
-      ->check(CLI::IsMember({"c", "program"}))
+  app.add_option("--target", target,
+                 "c; cuda: one thread a sample; or program: the program itself as JSON")
+      ->check(CLI::IsMember({"c", "cuda", "program"}))
       ->capture_default_str();
   app.add_option("--style", style,
                  "flat: optimised straight-line code; readable: a call for each closure")
       ->check(CLI::IsMember({"flat", "readable"}))
       ->capture_default_str();
+  app.add_option("--scalar", scalar, "Type of all numbers: double or float")
+      ->check(CLI::IsMember({"double", "float"}))
+      ->capture_default_str();
+  app.add_option("--slow", partial.slow,
+                 "Inputs that change rarely (a name, its first part, or a quantity; may be "
+                 "repeated): NAME_update computes what depends on them alone");
+  app.add_option("--held", partial.held,
+                 "Data blocks that are kept between updates (a name, its first part, or a "
+                 "quantity; may be repeated): evaluations use their value of the last update");
   bool trace = false;
   app.add_flag("--trace", trace, "Write what each optimisation pass does to standard error");
   app.add_option("-o,--output", folder, "Folder for the files")->capture_default_str();
@@ -45,6 +56,9 @@ int run_generate(Arguments arguments) {
   options.name = program.name;
   options.style = style == "flat" ? backend::Style::kFlat : backend::Style::kReadable;
   options.source = describe(models_options, query);
+  options.scalar = scalar == "float" ? backend::Scalar::kFloat : backend::Scalar::kDouble;
+  options.language = target == "cuda" ? backend::Language::kCuda : backend::Language::kC;
+  options.partial = partial;
   if (trace) {
     options.passes.trace = [](const program::PassReport& report) {
       std::cerr << program::to_string(report) << '\n';

@@ -1,37 +1,69 @@
 // The flat style: the whole program as straight-line code on numbers.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cctype>
-
 #include "sinew/backend/c_flat_body.h"
 #include "sinew/backend/c_parts.h"
+#include "sinew/backend/numbers.h"
 
 namespace sinew::backend {
+namespace {
 
-RenderedSource flat_source(const program::Program& program, const program::Interface& interface,
-                           const program::Computation& computation, const Fields& common,
-                           std::size_t maximum_statements) {
+using Blocks = std::vector<std::pair<std::string, const CodeBlock*>>;
+
+}  // namespace
+
+RenderedSource flat_source(const program::ScalarProgram& scalar,
+                           const program::Interface& interface, const Fields& common,
+                           const COptions& options) {
   Fields fields = common;
-  const std::string name = std::get<std::string>(common.values.at("name"));
-  std::string upper = name;
-  std::transform(upper.begin(), upper.end(), upper.begin(),
-                 [](unsigned char c) { return std::toupper(c); });
-  fields.text("NAME", upper);
+  const std::string name = options.name;
+  fields.text("NAME", upper_case(name));
+  const bool is_float = options.scalar == Scalar::kFloat;
+  fields.section("float", is_float);
+  fields.text("f", is_float ? "f" : "");
+  // 32 and 64 bytes.
+  fields.number("lanes_256", is_float ? 8 : 4);
+  fields.number("lanes_512", is_float ? 16 : 8);
 
-  const FlatBody sample =
-      flat_body(program, interface, computation, name, FlatForm::kSample, maximum_statements);
-  const FlatBody block =
-      flat_body(program, interface, computation, name, FlatForm::kBlock, maximum_statements);
+  const FlatLayout layout = evaluation_layout(scalar.program, interface, scalar.computation);
+  FlatOptions flat{name, FlatForm::kSample, options.scalar, "sample", options.maximum_statements};
+  const auto body = [&](FlatForm form) {
+    flat.form = form;
+    return flat_body(scalar.computation, layout, flat);
+  };
+  const bool held = !scalar.update.results.empty();
+  const bool cuda = options.language == Language::kCuda;
+  FlatBody update;
+  if (held) {
+    FlatOptions of_update = flat;
+    of_update.of = "update";
+    of_update.form = cuda ? FlatForm::kThread : FlatForm::kSample;
+    update = flat_body(scalar.update, update_layout(scalar.program, interface, scalar.update),
+                       of_update);
+  }
+  const auto with_update = [&](Blocks blocks, std::size_t at) {
+    if (!held) return blocks;
+    blocks.insert(blocks.begin() + static_cast<std::ptrdiff_t>(at),
+                  {{"update_parts", &update.parts}, {"update_body", &update.code}});
+    return blocks;
+  };
+  if (cuda) {
+    const FlatBody thread = body(FlatForm::kThread);
+    return render_with_blocks("c/flat.cu.mustache", std::move(fields),
+                              with_update({{"parts", &thread.parts}, {"body", &thread.code}}, 1));
+  }
+  const FlatBody sample = body(FlatForm::kSample);
+  const FlatBody block = body(FlatForm::kBlock);
   // A part is compiled once, for the machine that the whole file is compiled for.
   fields.section("in_one", sample.parts.lines == 0);
-  fields.section("has_angles", sample.angles > 0);
-  if (sample.angles > 0) fields.text("sincos", render("c/sincos.c.mustache", fields));
+  fields.section("has_angles", sample.angles + update.angles > 0);
+  if (sample.angles + update.angles > 0) {
+    fields.text("sincos", render("c/sincos.c.mustache", fields));
+  }
   return render_with_blocks("c/flat.c.mustache", std::move(fields),
-                            {{"parts", &sample.parts},
-                             {"lanes_parts", &block.parts},
-                             {"body", &sample.code},
-                             {"lanes_body", &block.code}});
+                            with_update({{"parts", &sample.parts},
+                                         {"lanes_parts", &block.parts},
+                                         {"body", &sample.code},
+                                         {"lanes_body", &block.code}},
+                                        2));
 }
 
 }  // namespace sinew::backend

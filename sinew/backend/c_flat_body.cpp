@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cfloat>
+#include <cmath>
 #include <unordered_set>
 
 #include "sinew/backend/angle_groups.h"
 #include "sinew/backend/flat_parts.h"
 #include "sinew/backend/numbers.h"
+#include "sinew/base/error.h"
 
 namespace sinew::backend {
 namespace {
@@ -20,35 +23,24 @@ using program::Ref;
 
 class Emitter {
  public:
-  Emitter(const program::Program& program, const program::Interface& interface,
-          const Computation& computation, const std::string& name, FlatForm form)
-      : interface_(interface),
+  Emitter(const Computation& computation, const FlatLayout& layout, const FlatOptions& options)
+      : layout_(layout),
         computation_(computation),
         dag_(computation.dag),
-        prefix_(name),
-        block_form_(form == FlatForm::kBlock),
-        type_(block_form_ ? name + "_lanes" : "double"),
+        options_(options),
+        prefix_(options.name),
+        upper_(upper_case(options.name)),
+        block_form_(options.form == FlatForm::kBlock),
+        scalar_(options.scalar == Scalar::kFloat ? "float" : "double"),
+        suffix_(options.scalar == Scalar::kFloat ? "f" : ""),
+        type_(block_form_ ? options.name + "_lanes" : scalar_),
         names_(dag_.size()) {
-    upper_ = name;
-    std::transform(upper_.begin(), upper_.end(), upper_.begin(),
-                   [](unsigned char c) { return std::toupper(c); });
-    input_names_.resize(computation.inputs);
-    const std::vector<std::string> identifiers = variable_identifiers(program);
-    const auto name_slots = [&](const std::vector<program::Slot>& slots, std::uint32_t first) {
-      for (const program::Slot& slot : slots) {
-        const std::uint32_t size = program.variables[slot.variable].size;
-        for (std::uint32_t k = 0; k < size; ++k) {
-          input_names_[first + slot.offset + k] =
-              size == 1 ? identifiers[slot.variable]
-                        : fmt::format("{}_{}", identifiers[slot.variable], k);
-        }
-      }
-    };
-    name_slots(interface.inputs, 0);
-    name_slots(interface.states, interface.in_size);
+    for (const FlatPlace& place : layout.inputs) use(place.array);
+    for (const FlatPlace& place : layout.results) use(place.array);
+    use("in");
   }
 
-  FlatBody run(std::size_t maximum_statements) {
+  FlatBody run() {
     const AngleGroups groups = group_angles(computation_);
     for (const AngleGroup& group : groups.groups) {
       for (const std::uint32_t node : group.before) emit(node);
@@ -58,25 +50,55 @@ class Emitter {
     for (std::uint32_t i = 0; i < names_.size(); ++i) {
       if (!names_[i].empty() && dag_.node(i).op != Op::kInput) before.push_back(i);
     }
-    parts_ = divide_into_parts(computation_, before, groups.after, maximum_statements);
+    parts_ = divide_into_parts(computation_, before, groups.after, options_.maximum_statements);
     if (parts_.parts.empty()) {
       for (const std::uint32_t node : groups.after) emit(node);
     } else {
       call_parts(before);
     }
     results();
-    if (interface_.in_size == 0) line("(void)in;");
-    if (block_form_ && interface_.in_size + computation_.results.size() == 0) line("(void)n;");
-    if (computation_.results.empty()) line("(void)out;");
+    for (const std::string& array : arrays_) {
+      if (!touched_.contains(array)) line(fmt::format("(void){};", array));
+    }
+    if (strided() && !touched_.contains("n")) line("(void)n;");
     return std::move(result_);
   }
 
  private:
-  // Where input i (then the states) lies, as an address.
-  std::string input_address(std::uint32_t i) const {
-    const bool input = i < interface_.in_size;
-    const std::uint32_t at = input ? i : i - interface_.in_size;
-    return fmt::format("{} + {}{}", input ? "in" : "state", at, block_form_ ? " * n" : "");
+  bool strided() const { return options_.form != FlatForm::kSample; }
+
+  void use(const std::string& array) {
+    if (std::find(arrays_.begin(), arrays_.end(), array) == arrays_.end()) arrays_.push_back(array);
+  }
+
+  // A number of one sample: "in[3]", "in[3 * n]". What is held is the same for all samples.
+  std::string element(const FlatPlace& place) {
+    const bool stride = strided() && std::string_view(place.array) != "held";
+    touched_.insert(place.array);
+    if (stride) touched_.insert("n");
+    return fmt::format("{}[{}{}]", place.array, place.index, stride ? " * n" : "");
+  }
+
+  // Where a number lies for neighbouring samples.
+  std::string address(const FlatPlace& place) {
+    touched_.insert(place.array);
+    touched_.insert("n");
+    return fmt::format("{} + {} * n", place.array, place.index);
+  }
+
+  // Throws Error where a float cannot hold it.
+  std::string number(double value) const {
+    if (options_.scalar == Scalar::kDouble) return c_number(value);
+    const auto rounded = static_cast<float>(value);
+    if (!std::isfinite(rounded) || (value != 0.0 && std::abs(rounded) < FLT_MIN)) {
+      throw Error(Problem{{},
+                          {},
+                          fmt::format("a float cannot hold the constant {}", c_number(value)),
+                          "use double",
+                          Severity::kError,
+                          {}});
+    }
+    return c_number(rounded) + "f";
   }
 
   void line(const std::string& text, std::uint32_t origin = program::kNoOrigin) {
@@ -94,27 +116,41 @@ class Emitter {
   // Keeps what the parts need of what has been computed, and calls them; their code goes to
   // `parts`.
   void call_parts(const std::vector<std::uint32_t>& before) {
-    const std::string states = interface_.state_size > 0 ? ", double *state" : "";
-    const std::string row = block_form_ ? ", size_t n" : "";
-    line(fmt::format("{0}_ALIGNED double kept[{1}{2}];", upper_, parts_.slots,
-                     block_form_ ? fmt::format(" * {}_LANES", upper_) : ""));
+    std::string parameters, arguments;
+    for (const std::string& array : arrays_) {
+      if (array == "in" || array == "out") continue;
+      // Only the results are written, and they are not written by the parts.
+      parameters += fmt::format(", const {} *{}", scalar_, array);
+      arguments += ", " + array;
+    }
+    if (strided()) {
+      parameters += ", size_t n";
+      arguments += ", n";
+      touched_.insert("n");
+    }
+    for (const std::string& array : arrays_) {
+      if (array != "out") touched_.insert(array);
+    }
+    line(fmt::format("{0}_ALIGNED {3} kept[{1}{2}];", upper_, parts_.slots,
+                     block_form_ ? fmt::format(" * {}_LANES", upper_) : "", scalar_));
     for (const std::uint32_t node : before) keep(node);
     for (std::size_t k = 0; k < parts_.parts.size(); ++k) {
       const std::string function =
-          fmt::format("{}_{}_part{}", prefix_, block_form_ ? "block" : "sample", k + 1);
-      line(fmt::format("{}(in, kept{}{});", function, states.empty() ? "" : ", state",
-                       block_form_ ? ", n" : ""));
+          fmt::format("{}_{}{}_part{}", prefix_, options_.of, block_form_ ? "_block" : "", k + 1);
+      line(fmt::format("{}(in, kept{});", function, arguments));
       block_ = &result_.parts;
       forget();
-      block_->add(fmt::format("{}_APART void {}(const double *in, double *kept{}{}) {{", upper_,
-                              function, states, row));
+      block_->add(fmt::format("{0}_APART void {1}(const {3} *in, {3} *kept{2}) {{", upper_,
+                              function, parameters, scalar_));
       for (const std::uint32_t node : parts_.parts[k]) {
         emit(node);
         keep(node);
       }
       line("(void)in;");
-      if (!states.empty()) line("(void)state;");
-      if (block_form_) line("(void)n;");
+      for (const std::string& array : arrays_) {
+        if (array != "in" && array != "out") line(fmt::format("(void){};", array));
+      }
+      if (strided()) line("(void)n;");
       block_->add("}");
       block_->add("");
       block_ = &result_.code;
@@ -144,14 +180,14 @@ class Emitter {
       line(fmt::format("{0} {1}; memcpy(&{1}, kept + {2} * {3}_LANES, sizeof {1});", type_,
                        names_[node], parts_.slot[node], upper_));
     } else {
-      line(fmt::format("const double {} = kept[{}];", names_[node], parts_.slot[node]));
+      line(fmt::format("const {} {} = kept[{}];", scalar_, names_[node], parts_.slot[node]));
     }
   }
 
   // The name of a node that has been emitted, or its number.
   std::string value(std::uint32_t i) {
     const Node& node = dag_.node(i);
-    if (node.op == Op::kConstant) return c_number(node.value);
+    if (node.op == Op::kConstant) return number(node.value);
     if (names_[i].empty()) {
       if (node.op == Op::kInput) {
         read_input(i, node);
@@ -164,14 +200,15 @@ class Emitter {
   std::string value(Ref ref) { return (ref.negative() ? "-" : "") + value(ref.node()); }
 
   void read_input(std::uint32_t i, const Node& node) {
-    names_[i] = unique(input_names_[node.index]);
-    if (block_form_) {
-      line(fmt::format("{0} {1}; memcpy(&{1}, {2}, sizeof {1});", type_, names_[i],
-                       input_address(node.index)));
+    names_[i] = unique(layout_.input_names[node.index]);
+    const FlatPlace& place = layout_.inputs[node.index];
+    if (!block_form_) {
+      line(fmt::format("const {} {} = {};", scalar_, names_[i], element(place)));
+    } else if (std::string_view(place.array) == "held") {
+      line(fmt::format("const {} {} = {} - ({}){{ 0 }};", type_, names_[i], element(place), type_));
     } else {
-      const bool input = node.index < interface_.in_size;
-      line(fmt::format("const double {} = {}[{}];", names_[i], input ? "in" : "state",
-                       input ? node.index : node.index - interface_.in_size));
+      line(
+          fmt::format("{0} {1}; memcpy(&{1}, {2}, sizeof {1});", type_, names_[i], address(place)));
     }
   }
 
@@ -199,7 +236,7 @@ class Emitter {
       case Op::kDivide:
         return value(n.a) + " / " + value(n.b);
       case Op::kSqrt:
-        return fmt::format("sqrt({})", value(n.a));
+        return fmt::format("sqrt{}({})", suffix_, value(n.a));
       case Op::kSelect: {
         const Node& condition = dag_.node(n.a);
         const std::string a = value(condition.a), b = value(condition.b), x = value(n.b),
@@ -226,15 +263,15 @@ class Emitter {
     for (const auto& [ref, copy] : operands) {
       if (dag_.is_constant(ref)) continue;
       line(fmt::format("  const {} {}_lanes = {};", type_, copy, value(ref)));
-      line(fmt::format("  double {}[{}_LANES];", copy, upper_));
+      line(fmt::format("  {} {}[{}_LANES];", scalar_, copy, upper_));
     }
-    line(fmt::format("  double result[{}_LANES];", upper_));
+    line(fmt::format("  {} result[{}_LANES];", scalar_, upper_));
     line("  size_t lane;");
     for (const auto& [ref, copy] : operands) {
       if (dag_.is_constant(ref)) continue;
       line(fmt::format("  memcpy({0}, &{0}_lanes, sizeof {0});", copy));
     }
-    std::string expression = fmt::format("sqrt({})", lane(node.a, "a"));
+    std::string expression = fmt::format("sqrt{}({})", suffix_, lane(node.a, "a"));
     if (node.op == Op::kSelect) {
       const Node& condition = dag_.node(node.a);
       expression = fmt::format("{} < {} ? {} : {}", lane(condition.a, "a"), lane(condition.b, "b"),
@@ -249,14 +286,18 @@ class Emitter {
 
   // Sines and cosines of a group of angles.
   void angles(const AngleGroup& group) {
-    constexpr std::size_t kWidest = 8;  // lanes; arrays are padded to them
+    if (options_.form == FlatForm::kThread) {
+      angles_one_by_one(group);
+      return;
+    }
+    constexpr std::size_t kWidest = 8;  // angles that are computed at once; arrays are padded
     const std::size_t n = group.angles.size();
     const std::size_t padded = (n + kWidest - 1) / kWidest * kWidest;
     const std::string tag = result_.angles == 0 ? "" : fmt::format("_{}", result_.angles);
     for (const char* array : {"angle", "sine", "cosine"}) used_.insert(array + tag);
     const std::string lanes = block_form_ ? fmt::format("{} * {}_LANES", n, upper_) : "";
-    line(fmt::format("{2}_ALIGNED double sine{0}[{1}], cosine{0}[{1}];", tag,
-                     block_form_ ? lanes : std::to_string(padded), upper_));
+    line(fmt::format("{2}_ALIGNED {3} sine{0}[{1}], cosine{0}[{1}];", tag,
+                     block_form_ ? lanes : std::to_string(padded), upper_, scalar_));
     std::string from;
     const auto each = [&](auto text) {
       std::string sum;
@@ -265,12 +306,13 @@ class Emitter {
     };
     std::string squares;
     if (block_form_) {
-      line(fmt::format("{}_ALIGNED double angle{}[{}];", upper_, tag, lanes));
+      line(fmt::format("{}_ALIGNED {} angle{}[{}];", upper_, scalar_, tag, lanes));
       for (std::size_t k = 0; k < n; ++k) {
         const Node& node = dag_.node(group.angles[k]);
         const std::string to = fmt::format("angle{} + {} * {}_LANES", tag, k, upper_);
-        if (node.op == Op::kInput) {
-          line(fmt::format("memcpy({}, {}, sizeof({}));", to, input_address(node.index), type_));
+        if (node.op == Op::kInput && !is_held(node)) {
+          line(fmt::format("memcpy({}, {}, sizeof({}));", to, address(layout_.inputs[node.index]),
+                           type_));
         } else {
           line(fmt::format("memcpy({}, &{}, sizeof({}));", to, value(group.angles[k]), type_));
         }
@@ -278,14 +320,15 @@ class Emitter {
       from = "angle" + tag;
       squares = fmt::format("{}_squares({}, {})", prefix_, from, lanes);
     } else if (contiguous(group, padded)) {
-      const std::uint32_t first = dag_.node(group.angles[0]).index;
+      const std::uint32_t first = layout_.inputs[dag_.node(group.angles[0]).index].index;
+      touched_.insert("in");
       from = fmt::format("in + {}", first);
       squares = each([&](std::size_t k) { return fmt::format("in[{0}] * in[{0}]", first + k); });
     } else {
       std::string list;
       for (const std::uint32_t angle : group.angles)
         list += (list.empty() ? "" : ", ") + value(angle);
-      line(fmt::format("{}_ALIGNED const double angle{}[{}] = {{ {} }};", upper_, tag, padded,
+      line(fmt::format("{}_ALIGNED const {} angle{}[{}] = {{ {} }};", upper_, scalar_, tag, padded,
                        list));
       from = "angle" + tag;
       squares = each([&](std::size_t k) { return fmt::format("{0}[{1}] * {0}[{1}]", from, k); });
@@ -295,21 +338,52 @@ class Emitter {
     for (std::size_t k = 0; k < n; ++k) {
       const Node& node = dag_.node(group.angles[k]);
       const std::string angle =
-          node.op == Op::kInput ? input_names_[node.index] : names_[group.angles[k]];
+          node.op == Op::kInput ? layout_.input_names[node.index] : names_[group.angles[k]];
       take(group.sines[k], "sin_" + angle, "sine" + tag, k);
       take(group.cosines[k], "cos_" + angle, "cosine" + tag, k);
     }
     result_.angles += n;
   }
 
-  // Whether the angles are neighbouring inputs, with others behind them up to the padded size.
+  bool is_held(const Node& node) const {
+    return node.op == Op::kInput && std::string_view(layout_.inputs[node.index].array) == "held";
+  }
+
+  // Whether the angles are neighbours in `in`, with others behind them up to the padded size.
   bool contiguous(const AngleGroup& group, std::size_t padded) const {
-    const Node& first = dag_.node(group.angles[0]);
+    const Node& head = dag_.node(group.angles[0]);
+    if (head.op != Op::kInput) return false;
+    const FlatPlace& first = layout_.inputs[head.index];
     for (std::size_t k = 0; k < group.angles.size(); ++k) {
       const Node& node = dag_.node(group.angles[k]);
-      if (node.op != Op::kInput || node.index != first.index + k) return false;
+      if (node.op != Op::kInput) return false;
+      const FlatPlace& place = layout_.inputs[node.index];
+      if (std::string_view(place.array) != "in" || place.index != first.index + k) return false;
     }
-    return first.index + padded <= interface_.in_size;
+    return first.index + padded <= layout_.in_size;
+  }
+
+  // A graphics processor has a vectorised sine and cosine of its own.
+  void angles_one_by_one(const AngleGroup& group) {
+    for (std::size_t k = 0; k < group.angles.size(); ++k) {
+      const std::string angle = value(group.angles[k]);
+      const std::uint32_t sine = group.sines[k], cosine = group.cosines[k];
+      if (sine != AngleGroup::kNone && cosine != AngleGroup::kNone) {
+        names_[sine] = unique("sin_" + angle);
+        names_[cosine] = unique("cos_" + angle);
+        line(fmt::format("{0} {1}, {2}; sincos{3}({4}, &{1}, &{2});", scalar_, names_[sine],
+                         names_[cosine], suffix_, angle),
+             dag_.node(sine).origin);
+        continue;
+      }
+      const bool is_sine = sine != AngleGroup::kNone;
+      const std::uint32_t node = is_sine ? sine : cosine;
+      const char* function = is_sine ? "sin" : "cos";
+      names_[node] = unique(fmt::format("{}_{}", function, angle));
+      line(fmt::format("const {} {} = {}{}({});", scalar_, names_[node], function, suffix_, angle),
+           dag_.node(node).origin);
+    }
+    result_.angles += group.angles.size();
   }
 
   void take(std::uint32_t node, const std::string& name, const std::string& array, std::size_t k) {
@@ -321,7 +395,7 @@ class Emitter {
                        names_[node], array, k, upper_),
            origin);
     } else {
-      line(fmt::format("const double {} = {}[{}];", names_[node], array, k), origin);
+      line(fmt::format("const {} {} = {}[{}];", scalar_, names_[node], array, k), origin);
     }
   }
 
@@ -330,12 +404,10 @@ class Emitter {
     for (std::uint32_t i = 0; i < computation_.results.size(); ++i) value(computation_.results[i]);
     for (std::uint32_t i = 0; i < computation_.results.size(); ++i) {
       const Ref result = computation_.results[i];
-      const bool output = i < interface_.out_size;
-      const std::uint32_t at = output ? i : i - interface_.out_size;
-      const char* array = output ? "out" : "state";
+      const FlatPlace& place = layout_.results[i];
       const std::uint32_t origin = dag_.node(result).origin;
       if (!block_form_) {
-        line(fmt::format("{}[{}] = {};", array, at, value(result)), origin);
+        line(fmt::format("{} = {};", element(place), value(result)), origin);
         continue;
       }
       const std::string number =
@@ -344,36 +416,38 @@ class Emitter {
         line(fmt::format("const {} zero = {{ 0 }};", type_));
         zero_ = true;
       }
-      line(fmt::format("{{ const {0} y = {1}; memcpy({2} + {3} * n, &y, sizeof y); }}", type_,
-                       number, array, at),
+      line(fmt::format("{{ const {0} y = {1}; memcpy({2}, &y, sizeof y); }}", type_, number,
+                       address(place)),
            origin);
     }
   }
 
-  const program::Interface& interface_;
+  const FlatLayout& layout_;
   const Computation& computation_;
   const program::Dag& dag_;
+  const FlatOptions& options_;
   std::string prefix_, upper_;
   bool block_form_;
-  std::string type_;
-  std::vector<std::string> names_;  // of nodes; empty: not emitted yet
-  std::vector<std::string> input_names_;
+  std::string scalar_, suffix_;  // "float", "f" behind the names of functions
+  std::string type_;             // of a value
+  std::vector<std::string> arrays_;
+  std::unordered_set<std::string> touched_;  // arrays, and n, that the code names
+  std::vector<std::string> names_;           // of nodes; empty: not emitted yet
   std::uint32_t count_ = 0;
   bool zero_ = false;
   FlatParts parts_;
   std::unordered_set<std::string> used_ = {
-      "in",     "out", "state", "n", "kept", "angle",   "sine",    "cosine",  "lane",   "zero",
-      "result", "y",   "a",     "b", "x",    "a_lanes", "b_lanes", "x_lanes", "y_lanes"};
+      "in",   "out",    "state", "held", "n", "kept", "angle",   "sine",    "cosine",  "lane",
+      "zero", "result", "y",     "a",    "b", "x",    "a_lanes", "b_lanes", "x_lanes", "y_lanes"};
   FlatBody result_;
   CodeBlock* block_ = &result_.code;
 };
 
 }  // namespace
 
-FlatBody flat_body(const program::Program& program, const program::Interface& interface,
-                   const Computation& computation, const std::string& name, FlatForm form,
-                   std::size_t maximum_statements) {
-  return Emitter(program, interface, computation, name, form).run(maximum_statements);
+FlatBody flat_body(const Computation& computation, const FlatLayout& layout,
+                   const FlatOptions& options) {
+  return Emitter(computation, layout, options).run();
 }
 
 }  // namespace sinew::backend

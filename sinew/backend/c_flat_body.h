@@ -2,15 +2,40 @@
 // `backend`.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "sinew/backend/c_parts.h"
 
 namespace sinew::backend {
 
 enum class FlatForm {
-  kSample,  // numbers are double; input i is in[i]
+  kSample,  // numbers are scalars; input i is in[i]
   kBlock,   // numbers are NAME_lanes, one sample in each lane; input i lies at in + i * n
+  kThread,  // CUDA: numbers are scalars; input i is in[i * n]
+};
+
+// Where a number lies. All arrays but `held` have one number for each sample.
+struct FlatPlace {
+  const char* array = "in";
+  std::uint32_t index = 0;
+};
+
+// What a flat function reads and writes.
+struct FlatLayout {
+  std::vector<FlatPlace> inputs;         // of the computation
+  std::vector<std::string> input_names;  // identifiers; a second use gets a number
+  std::vector<FlatPlace> results;
+  std::uint32_t in_size = 0;  // numbers that may be read in `in`
+};
+
+struct FlatOptions {
+  std::string name;  // of the function; prefix of its types and parts
+  FlatForm form = FlatForm::kSample;
+  Scalar scalar = Scalar::kDouble;
+  std::string of;  // "sample" or "update": tells apart the parts of two functions
+  std::size_t maximum_statements = 4000;
 };
 
 struct FlatBody {
@@ -19,8 +44,14 @@ struct FlatBody {
   std::size_t angles = 0;  // whose sine or cosine is taken
 };
 
-FlatBody flat_body(const program::Program& program, const program::Interface& interface,
-                   const program::Computation& computation, const std::string& name, FlatForm form,
-                   std::size_t maximum_statements);
+// Throws Error for a constant that the scalar cannot hold.
+FlatBody flat_body(const program::Computation& computation, const FlatLayout& layout,
+                   const FlatOptions& options);
+
+// The layout of a program's evaluation, and that of its update (all results go to `held`).
+FlatLayout evaluation_layout(const program::Program& program, const program::Interface& interface,
+                             const program::Computation& evaluation);
+FlatLayout update_layout(const program::Program& program, const program::Interface& interface,
+                         const program::Computation& update);
 
 }  // namespace sinew::backend

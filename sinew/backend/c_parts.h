@@ -11,7 +11,7 @@
 #include "sinew/program/dag/dag.h"
 #include "sinew/program/interface.h"
 #include "sinew/program/program.h"
-#include "sinew/program/snap_constants.h"
+#include "sinew/program/scalar_program.h"
 
 namespace sinew::backend {
 
@@ -42,23 +42,22 @@ RenderedSource render_with_blocks(
     const std::vector<std::pair<std::string, const CodeBlock*>>& blocks);
 
 // The name, sizes, banner and lists of inputs, outputs and states.
-Fields common_fields(const program::Program& program, const program::Interface& interface,
-                     const COptions& options, const program::OperationCount& operations);
+Fields common_fields(const program::ScalarProgram& scalar, const program::Interface& interface,
+                     const COptions& options, const GeneratedCode& counts);
 
 // A distinct C identifier for each variable of the program.
 std::vector<std::string> variable_identifiers(const program::Program& program);
 
-RenderedSource flat_source(const program::Program& program, const program::Interface& interface,
-                           const program::Computation& computation, const Fields& common,
-                           std::size_t maximum_statements);
+RenderedSource flat_source(const program::ScalarProgram& scalar,
+                           const program::Interface& interface, const Fields& common,
+                           const COptions& options);
 RenderedSource readable_source(const program::Program& program, const program::Interface& interface,
                                const Fields& common);
 
 // NAME.json: names, units, frames and offsets; operations; which line of NAME.c comes from which
 // closure, step and model element (docs/generated-code.md).
-std::string sidecar(const program::Program& program, const program::Interface& interface,
-                    const COptions& options, const program::OperationCount& operations,
-                    const std::vector<program::SnappedConstant>& snapped,
+std::string sidecar(const program::ScalarProgram& scalar, const program::Interface& interface,
+                    const COptions& options, const GeneratedCode& counts,
                     const std::vector<LineOrigin>& origins);
 
 }  // namespace sinew::backend

@@ -1,5 +1,6 @@
 // Programs as C source: three self-contained files with the interface of design.md, "Program and
-// generated code". The same program gives the same bytes.
+// generated code"; or as CUDA source with one thread a sample. The same program gives the same
+// bytes.
 #pragma once
 
 #include <string>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "sinew/program/dag/evaluate.h"
+#include "sinew/program/partial.h"
 #include "sinew/program/passes/passes.h"
 #include "sinew/program/program.h"
 
@@ -17,11 +19,24 @@ enum class Style {
   kReadable,  // one call for each closure to the functions of math/sinew_math.h
 };
 
+enum class Scalar {
+  kDouble,
+  kFloat,  // flat style only: all numbers are float, constants are rounded to it
+};
+
+enum class Language {
+  kC,
+  kCuda,  // flat style only: NAME.h, NAME.cu and NAME.json
+};
+
 struct COptions {
   std::string name;  // of the function and of the files
   Style style = Style::kFlat;
   std::string source;  // what it was made from, for the banner: "gen3.urdf, solver rnea"
+  Scalar scalar = Scalar::kDouble;
+  Language language = Language::kC;
   program::OptimiseOptions passes;
+  program::PartialOptions partial;        // flat style only: what NAME_update computes
   std::size_t maximum_statements = 4000;  // of one flat function; more become several functions
 };
 
@@ -31,11 +46,13 @@ struct SourceFile {
 };
 
 struct GeneratedCode {
-  std::vector<SourceFile> files;       // NAME.h, NAME.c, NAME.json
+  std::vector<SourceFile> files;       // NAME.h, NAME.c or NAME.cu, NAME.json
   program::OperationCount operations;  // of one evaluation of the flat style
+  program::OperationCount update;      // of one call of NAME_update
 };
 
-// Throws Error if the program is not valid or the name cannot name a C function.
+// Throws Error if the program is not valid, the name cannot name a C function, a name in `partial`
+// fits nothing, a constant does not fit into the scalar, or the style cannot do what is asked.
 GeneratedCode generate_c(const program::Program& program, const COptions& options);
 
 }  // namespace sinew::backend

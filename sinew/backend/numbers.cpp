@@ -38,15 +38,27 @@ constexpr std::string_view kReserved[] = {
     "unsigned",     "using",     "virtual",       "void",
     "volatile",     "wchar_t",   "while",         "xor",
     "xor_eq",       "NULL",      "NAN",           "INFINITY",
-    "HUGE_VAL"};
+    "HUGE_VAL",     "cosf",      "sinf",          "sqrtf",
+    "sincos",       "sincosf"};
 
-}  // namespace
-
-std::string c_number(double value) {
+template <typename Number>
+std::string shortest(Number value) {
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   std::string text(buffer.data(), end);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+}  // namespace
+
+std::string c_number(double value) { return shortest(value); }
+std::string c_number(float value) { return shortest(value); }
+
+std::string upper_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
   return text;
 }
 

@@ -9,6 +9,10 @@ namespace sinew::backend {
 // The shortest decimal that reads back as exactly this double; always of floating type ("2.0").
 // Precondition: finite.
 std::string c_number(double value);
+std::string c_number(float value);  // without the suffix
+
+// "NAME" for the macros of the function "name".
+std::string upper_case(std::string text);
 
 // A text as a C identifier: every other character becomes '_', and a leading digit or an empty text
 // gets one in front.

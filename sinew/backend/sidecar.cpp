@@ -51,12 +51,17 @@ Json derivatives(const program::Program& program, const program::Interface& inte
   return list;
 }
 
+Json operation_counts(const program::OperationCount& n) {
+  return {{"add", n.add},   {"multiply", n.multiply}, {"divide", n.divide},
+          {"sqrt", n.sqrt}, {"sincos", n.sincos},     {"select", n.select}};
+}
+
 }  // namespace
 
-std::string sidecar(const program::Program& program, const program::Interface& interface,
-                    const COptions& options, const program::OperationCount& operations,
-                    const std::vector<program::SnappedConstant>& snapped,
+std::string sidecar(const program::ScalarProgram& scalar, const program::Interface& interface,
+                    const COptions& options, const GeneratedCode& counts,
                     const std::vector<LineOrigin>& origins) {
+  const program::Program& program = scalar.program;
   Json constants = Json::array();
   for (const program::Variable& v : program.variables) {
     if (v.role != program::Role::kConstant) continue;
@@ -67,7 +72,7 @@ std::string sidecar(const program::Program& program, const program::Interface& i
                          {"value", v.value}});
   }
   Json snaps = Json::array();
-  for (const program::SnappedConstant& s : snapped) {
+  for (const program::SnappedConstant& s : scalar.snapped) {
     snaps.push_back({{"name", program.variables[s.variable].name},
                      {"number", s.number},
                      {"from", s.from},
@@ -82,29 +87,31 @@ std::string sidecar(const program::Program& program, const program::Interface& i
   for (const LineOrigin& origin : origins) {
     lines.push_back(Json::array({origin.line, origin.closure}));
   }
-  const Json document = {{"sinew-generated", 1},
-                         {"name", options.name},
-                         {"style", options.style == Style::kFlat ? "flat" : "readable"},
-                         {"source", options.source},
-                         {"algorithm", program.iri},
-                         {"in-size", interface.in_size},
-                         {"out-size", interface.out_size},
-                         {"state-size", interface.state_size},
-                         {"inputs", slots(program, interface.inputs)},
-                         {"outputs", slots(program, interface.outputs)},
-                         {"states", slots(program, interface.states)},
-                         {"derivatives", derivatives(program, interface)},
-                         {"constants", std::move(constants)},
-                         {"snapped", std::move(snaps)},
-                         {"operations",
-                          {{"add", operations.add},
-                           {"multiply", operations.multiply},
-                           {"divide", operations.divide},
-                           {"sqrt", operations.sqrt},
-                           {"sincos", operations.sincos},
-                           {"select", operations.select}}},
-                         {"closures", std::move(closures)},
-                         {"lines", std::move(lines)}};
+  Json document = {{"sinew-generated", 1},
+                   {"name", options.name},
+                   {"style", options.style == Style::kFlat ? "flat" : "readable"},
+                   {"language", options.language == Language::kCuda ? "cuda" : "c"},
+                   {"scalar", options.scalar == Scalar::kFloat ? "float" : "double"},
+                   {"source", options.source},
+                   {"algorithm", program.iri},
+                   {"in-size", interface.in_size},
+                   {"out-size", interface.out_size},
+                   {"state-size", interface.state_size},
+                   {"inputs", slots(program, interface.inputs)},
+                   {"outputs", slots(program, interface.outputs)},
+                   {"states", slots(program, interface.states)},
+                   {"derivatives", derivatives(program, interface)},
+                   {"constants", std::move(constants)},
+                   {"snapped", std::move(snaps)},
+                   {"operations", operation_counts(counts.operations)},
+                   {"closures", std::move(closures)},
+                   {"lines", std::move(lines)}};
+  if (!options.partial.empty()) {
+    document["held-size"] = scalar.update.results.size();
+    document["slow"] = options.partial.slow;
+    document["held"] = options.partial.held;
+    document["update-operations"] = operation_counts(counts.update);
+  }
   return document.dump() + "\n";
 }
 

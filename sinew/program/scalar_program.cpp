@@ -6,12 +6,19 @@
 
 namespace sinew::program {
 
-ScalarProgram scalar_program(const Program& program, const OptimiseOptions& options) {
+ScalarProgram scalar_program(const Program& program, const OptimiseOptions& options,
+                             const PartialOptions& partial) {
   require_valid(program);
   ScalarProgram result;
   result.program = without_dead_closures(program);
   result.snapped = snap_constants(result.program);
-  result.computation = optimise(trace(result.program), options);
+  if (partial.empty()) {
+    result.computation = optimise(trace(result.program), options);
+    return result;
+  }
+  Hoisted parts = trace_in_parts(result.program, partial);
+  result.computation = optimise(std::move(parts.evaluate), options);
+  result.update = optimise(std::move(parts.update), options);
   return result;
 }
 

@@ -39,9 +39,9 @@ void trace_derivative(const Derivative& derivative, const std::vector<std::uint3
   }
 }
 
-}  // namespace
-
-Computation trace(const Program& program) {
+// After each closure `written` gets each variable that it wrote.
+template <typename Written>
+Computation trace_closures(const Program& program, Written&& written) {
   const Interface interface = interface_of(program);
   Computation computation;
   computation.inputs = interface.in_size + interface.state_size;
@@ -77,13 +77,17 @@ Computation trace(const Program& program) {
     const Kernel& kernel = *find_kernel(closure.operation);
     if (!kernel.many()) {
       kernel.trace(arguments.data());
-      continue;
+    } else {
+      sizes.clear();
+      for (const std::uint32_t variable : closure.arguments) {
+        sizes.push_back(program.variables[variable].size);
+      }
+      kernel.trace_many(arguments.data(), sizes);
     }
-    sizes.clear();
-    for (const std::uint32_t variable : closure.arguments) {
-      sizes.push_back(program.variables[variable].size);
+    for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
+      if (!kernel.port(i, closure.arguments.size()).output) continue;
+      written(dag, closure.arguments[i], values[closure.arguments[i]]);
     }
-    kernel.trace_many(arguments.data(), sizes);
   }
   dag.set_origin(kNoOrigin);
 
@@ -102,6 +106,42 @@ Computation trace(const Program& program) {
   for (const Slot& slot : interface.outputs) write(slot);
   for (const Slot& slot : interface.states) write(slot);
   return computation;
+}
+
+}  // namespace
+
+Computation trace(const Program& program) {
+  return trace_closures(program, [](Dag&, std::uint32_t, std::vector<Traced>&) {});
+}
+
+Hoisted trace_with_held(const Program& program, const std::vector<bool>& held) {
+  // The update has to see every value as it is, and the evaluation none that depends on another
+  // held one: the closures are recorded twice.
+  Hoisted parts;
+  std::vector<Ref> numbers;  // of the held variables, in the order in which they are written
+  parts.update =
+      trace_closures(program, [&](Dag& dag, std::uint32_t variable, std::vector<Traced>& value) {
+        if (!held[variable]) return;
+        for (const Traced& number : value) numbers.push_back(number.in(dag));
+      });
+  const Dag& dag = parts.update.dag;
+  parts.update.results.clear();
+  for (const Ref number : numbers) {
+    if (!dag.is_constant(number)) parts.update.results.push_back(number);
+  }
+  std::uint32_t next = parts.update.inputs;
+  std::size_t at = 0;
+  parts.evaluate =
+      trace_closures(program, [&](Dag& fast, std::uint32_t variable, std::vector<Traced>& value) {
+        if (!held[variable]) return;
+        for (Traced& number : value) {
+          const Ref known = numbers[at++];
+          number = dag.is_constant(known) ? Traced(dag.constant_value(known))
+                                          : Traced(fast, fast.input(next++));
+        }
+      });
+  parts.evaluate.inputs = next;
+  return parts;
 }
 
 }  // namespace sinew::program
