@@ -6,6 +6,24 @@
 namespace sinew::backend {
 namespace {
 
+// Everything that is defined once for each kind of processor.
+FieldList renamed(const std::string& name, std::initializer_list<const FlatBody*> bodies) {
+  std::vector<std::string> shorts = {"lanes",  "angles", "floats",        "bits",
+                                     "sincos", "far",    "sincos_all",    "squares",
+                                     "sample", "block",  "update_numbers"};
+  for (const FlatBody* body : bodies) {
+    shorts.insert(shorts.end(), body->part_names.begin(), body->part_names.end());
+  }
+  FieldList list;
+  for (const std::string& text : shorts) {
+    Fields item;
+    item.text("identifier", name + "_" + text);
+    item.text("short", text);
+    list.push_back(std::move(item));
+  }
+  return list;
+}
+
 using Blocks = std::vector<std::pair<std::string, const CodeBlock*>>;
 
 }  // namespace
@@ -52,8 +70,7 @@ RenderedSource flat_source(const program::ScalarProgram& scalar,
   }
   const FlatBody sample = body(FlatForm::kSample);
   const FlatBody block = body(FlatForm::kBlock);
-  // A part is compiled once, for the machine that the whole file is compiled for.
-  fields.section("in_one", sample.parts.lines == 0);
+  fields.list("renamed", renamed(name, {&sample, &block, &update}));
   fields.section("has_angles", sample.angles + update.angles > 0);
   if (sample.angles + update.angles > 0) {
     fields.text("sincos", render("c/sincos.c.mustache", fields));

@@ -135,8 +135,9 @@ class Emitter {
                      block_form_ ? fmt::format(" * {}_LANES", upper_) : "", scalar_));
     for (const std::uint32_t node : before) keep(node);
     for (std::size_t k = 0; k < parts_.parts.size(); ++k) {
-      const std::string function =
-          fmt::format("{}_{}{}_part{}", prefix_, options_.of, block_form_ ? "_block" : "", k + 1);
+      result_.part_names.push_back(
+          fmt::format("{}{}_part{}", options_.of, block_form_ ? "_block" : "", k + 1));
+      const std::string function = prefix_ + "_" + result_.part_names.back();
       line(fmt::format("{}(in, kept{});", function, arguments));
       block_ = &result_.parts;
       forget();

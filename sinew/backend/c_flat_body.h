@@ -40,6 +40,7 @@ struct FlatOptions {
 
 struct FlatBody {
   CodeBlock parts;  // functions that `code` calls; empty for all but very long programs
+  std::vector<std::string> part_names;  // of those functions, without the prefix
   CodeBlock code;
   std::size_t angles = 0;  // whose sine or cosine is taken
 };
