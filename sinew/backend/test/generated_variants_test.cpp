@@ -161,6 +161,44 @@ TEST(GeneratedFloat, RefusesAConstantThatItCannotHold) {
   }
 }
 
+// Takes a version out of the code, as if the processor did not have what it needs.
+void drop_version(backend::GeneratedCode& code, const std::string& macro) {
+  std::string& text = code.files[1].text;
+  const std::string line = "#define " + macro + "\n";
+  const std::size_t at = text.find(line);
+  ASSERT_NE(at, std::string::npos) << macro;
+  text.erase(at, line.size());
+}
+
+TEST(GeneratedVersions, AgreeAndAreTheSameBitsAloneAndInABatch) {
+  for (const int dropped : {0, 1, 2}) {
+    SCOPED_TRACE(dropped == 0 ? "best" : dropped == 1 ? "AVX2" : "base processor");
+    backend::GeneratedCode code = generate_c(chain(), named());
+    if (dropped >= 1) drop_version(code, "CHAIN_AVX512");
+    if (dropped >= 2) drop_version(code, "CHAIN_AVX2");
+    const Compiled compiled(code, fmt::format("gcc -O2 {} chain.c", kStrict));
+    auto* one = compiled.get<void(const double*, double*)>("chain");
+    auto* batch = compiled.get<void(const double*, double*, std::size_t)>("chain_batch");
+    backend::Interpreter interpreter(chain());
+    const std::size_t in_size = interpreter.in_size(), out_size = interpreter.out_size();
+    std::mt19937 random(19);
+    for (std::size_t n = 1; n < 20; ++n) {
+      const std::vector<double> rows = random_inputs(in_size * n, 3.0, random);
+      std::vector<double> results(out_size * n), in(in_size), out(out_size), expected(out_size);
+      batch(rows.data(), results.data(), n);
+      for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t i = 0; i < in_size; ++i) in[i] = rows[i * n + k];
+        one(in.data(), out.data());
+        interpreter.evaluate(in.data(), expected.data());
+        for (std::size_t i = 0; i < out_size; ++i) {
+          EXPECT_EQ(results[i * n + k], out[i]) << n << " samples, sample " << k;
+          EXPECT_NEAR(out[i], expected[i], 1e-12 * (1 + std::abs(expected[i])));
+        }
+      }
+    }
+  }
+}
+
 TEST(GeneratedCuda, ComputesWhatTheInterpreterComputes) {
   for (const backend::Scalar scalar : {backend::Scalar::kDouble, backend::Scalar::kFloat}) {
     backend::COptions options = named();
