@@ -1,6 +1,8 @@
 // The readable style: what a person would write by hand with the support library.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sinew/backend/c_parts.h"
 #include "sinew/backend/numbers.h"
 #include "sinew/program/kernels.h"
@@ -35,9 +37,16 @@ RenderedSource readable_source(const program::Program& program, const program::I
     fields.text("comment", describe(v));
     return fields;
   };
+  // An input that nothing reads gets no name.
+  std::vector<bool> named(program.variables.size(), false);
+  for (std::size_t i = 0; i < named.size(); ++i) named[i] = program.variables[i].output;
+  for (const program::Closure& closure : program.closures) {
+    for (const std::uint32_t argument : closure.arguments) named[argument] = true;
+  }
   const auto slot_items = [&](const std::vector<program::Slot>& slots) {
     FieldList list;
     for (const program::Slot& slot : slots) {
+      if (!named[slot.variable]) continue;
       Fields fields = item(slot.variable);
       fields.number("offset", slot.offset);
       list.push_back(std::move(fields));
@@ -83,7 +92,12 @@ RenderedSource readable_source(const program::Program& program, const program::I
     body.add(call + ");", index);
   }
 
+  const auto reads_none = [&](const std::vector<program::Slot>& slots) {
+    return std::none_of(slots.begin(), slots.end(),
+                        [&](const program::Slot& slot) { return named[slot.variable]; });
+  };
   Fields fields = common;
+  fields.section("reads_nothing", reads_none(interface.inputs));
   fields.list("constants", std::move(constants));
   fields.list("internals", std::move(internals));
   fields.list("inputs", slot_items(interface.inputs));
