@@ -2,9 +2,12 @@
 // triples).
 //
 //   bench_sparql                                 prepared queries, anchors rotating; and preparing
-//   bench_sparql --dump=FILE --copies=8          the data as N-Quads, for bench/sparql_peers
-//   bench_sparql --table --copies=8              name, rows in all, ns per query, µs to prepare;
-//   tab-separated
+// For bench/sparql/compare, which asks other engines the same:
+//   bench_sparql --dump=FILE --copies=8          the data as N-Triples
+//   bench_sparql --answers=FILE --copies=8       for each query its anchors and the rows found from
+//                                                each, in N-Triples' terms, tab-separated
+//   bench_sparql --table --copies=8              name, anchors, rows in all, ns per query, µs to
+//                                                prepare; tab-separated
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -131,20 +134,55 @@ void dump(const std::string& path, std::size_t copies) {
   store->view().match({}, {}, {}, graph::Dataset::kUnion, write);
 }
 
+// One line each: "query NAME", then for each anchor "anchor TERM ..." and "row TERM ..." for what
+// it leads to; ASK gives "row true" or "row false", and "-" is unbound.
+void print_answers(const std::string& path, std::size_t copies) {
+  graph::Store* store = nullptr;
+  robots(copies, &store);
+  std::ofstream out(path);
+  const graph::View view = store->view();
+  const auto write = [&](std::string_view what, std::span<const graph::Id> ids) {
+    out << what;
+    for (const graph::Id id : ids) out << '\t' << (id ? store->terms().to_string(id) : "-");
+    out << '\n';
+  };
+  for (const QueryFile& file : bench::query_files()) {
+    const Anchored query(*store, file);
+    out << "query\t" << file.name << '\n';
+    for (const auto& anchor : query.anchors) {
+      write("anchor", anchor);
+      if (query.query->is_ask()) {
+        out << "row\t" << (query.query->ask(view, anchor) ? "true" : "false") << '\n';
+        continue;
+      }
+      query.query->select(view, anchor, [&](std::span<const graph::Id> row) {
+        write("row", row);
+        return true;
+      });
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string dump_to;
+  std::string dump_to, answers_to;
   std::size_t copies = 8;
   bool table = false;
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
     if (argument.starts_with("--dump=")) dump_to = argument.substr(7);
+    if (argument.starts_with("--answers=")) answers_to = argument.substr(10);
     if (argument.starts_with("--copies=")) copies = std::stoul(std::string(argument.substr(9)));
     if (argument == "--table") table = true;
   }
-  if (!dump_to.empty() || table) {
+  if (!dump_to.empty() || !answers_to.empty() || table) {
+    if (robots(copies).view().size() == 0) {
+      std::cerr << "bench_sparql: the published models are not here (SINEW_SHARED_DIR)\n";
+      return 1;
+    }
     if (!dump_to.empty()) dump(dump_to, copies);
+    if (!answers_to.empty()) print_answers(answers_to, copies);
     if (table) print_table(copies);
     return 0;
   }

@@ -6,8 +6,9 @@
 //   PO  the subjects of a predicate and object     P  everything of a predicate
 //   OS  the predicates between object and subject  O  everything of an object
 // The head of each list is a Posting, found by hash for a pair of terms and by array for one term.
-// That a triple is held by a graph is a Membership, with versions of its own; a triple is visible
-// while at least one of its memberships is.
+// Most lists of pairs have one triple: then the hash table leads to the triple itself. That a
+// triple is held by a graph is a Membership, with versions of its own; a triple is visible while at
+// least one of its memberships is.
 //
 // Concurrency: one writer, any number of readers, no locks. Records never move and are reached
 // through release/acquire links. Versions grow along every list, so a reader of version v stops at
@@ -98,13 +99,45 @@ struct Records {
   std::uint32_t mark_count = 0;
   std::uint32_t live_count = 0;  // writer only: triples that its own version sees
 
-  const Posting* pair(List list, std::uint32_t first, std::uint32_t second) const {
-    const std::uint32_t number =
-        pairs[list].find(hash_pair(first, second), [&](std::uint32_t candidate) {
-          const Posting& posting = postings[candidate];
-          return posting.first == first && posting.second == second;
-        });
-    return number ? &postings[number] : nullptr;
+  // The first triple and the length of a list; head 0 where there is none.
+  struct Run {
+    std::uint32_t head = 0, count = 0;
+  };
+  static Run run_of(const Posting& posting) { return {load(posting.head), load(posting.count)}; }
+  struct Pair {
+    std::uint32_t first, second;
+    friend bool operator==(Pair, Pair) = default;
+  };
+  static Pair pair_of(const Triple& triple, List list) {
+    switch (list) {
+      case kListSP:
+        return {triple.subject, triple.predicate};
+      case kListPO:
+        return {triple.predicate, triple.object};
+      default:
+        return {triple.object, triple.subject};
+    }
+  }
+  // A marked number is a Posting's, any other a triple's. A triple that is not visible yet may be
+  // changing, and may be passed over: whatever is in its list was added later.
+  SlotTable::Slot find_pair(List list, Pair pair, Version version,
+                            std::uint32_t* at = nullptr) const {
+    return pairs[list].find(
+        hash_pair(pair.first, pair.second),
+        [&](SlotTable::Slot slot) {
+          if (slot.marked()) {
+            const Posting& posting = postings[slot.number()];
+            return pair == Pair{posting.first, posting.second};
+          }
+          const Triple& triple = triples[slot.number()];
+          return load(triple.added) <= version && pair == pair_of(triple, list);
+        },
+        at);
+  }
+  Run pair(List list, std::uint32_t first, std::uint32_t second, Version version) const {
+    const SlotTable::Slot found = find_pair(list, {first, second}, version);
+    if (!found) return {};
+    return found.marked() ? run_of(postings[found.number()]) : Run{found.number(), 1};
   }
   const Posting* single(List list, std::uint32_t term) const {
     const Node* node = nodes.find(term);
@@ -115,14 +148,14 @@ struct Records {
     return number ? &postings[number] : nullptr;
   }
   // Precondition: one or two of the three are not 0. Sets `list`.
-  const Posting* posting(std::uint32_t subject, std::uint32_t predicate, std::uint32_t object,
-                         List& list) const {
-    if (subject && predicate) return pair(list = kListSP, subject, predicate);
-    if (predicate && object) return pair(list = kListPO, predicate, object);
-    if (object && subject) return pair(list = kListOS, object, subject);
-    if (subject) return single(list = kListS, subject);
-    if (predicate) return single(list = kListP, predicate);
-    return single(list = kListO, object);
+  Run run(std::uint32_t subject, std::uint32_t predicate, std::uint32_t object, Version version,
+          List& list) const {
+    if (subject && predicate) return pair(list = kListSP, subject, predicate, version);
+    if (predicate && object) return pair(list = kListPO, predicate, object, version);
+    if (object && subject) return pair(list = kListOS, object, subject, version);
+    list = subject ? kListS : predicate ? kListP : kListO;
+    const Posting* posting = single(list, subject ? subject : predicate ? predicate : object);
+    return posting ? run_of(*posting) : Run{};
   }
   const Graph* graph(std::uint32_t name) const {
     const Node* node = nodes.find(name);
@@ -153,30 +186,16 @@ struct Records {
   // the shortest of the three is searched.
   std::uint32_t find(std::uint32_t subject, std::uint32_t predicate, std::uint32_t object,
                      Version version) const {
-    const Posting* os = pair(kListOS, object, subject);
-    if (!os) return 0;
-    if (load(os->count) <= kShort) return search(kListOS, *os, subject, predicate, object, version);
-    const Posting* sp = pair(kListSP, subject, predicate);
-    const Posting* po = pair(kListPO, predicate, object);
-    return sp && po ? search(*sp, *po, *os, subject, predicate, object, version) : 0;
-  }
-  std::uint32_t search(const Posting& sp, const Posting& po, const Posting& os,
-                       std::uint32_t subject, std::uint32_t predicate, std::uint32_t object,
-                       Version version) const {
-    const std::uint32_t sp_count = load(sp.count), po_count = load(po.count);
-    const std::uint32_t os_count = load(os.count);
-    if (os_count <= kShort || (os_count <= sp_count && os_count <= po_count)) {
-      return search(kListOS, os, subject, predicate, object, version);
+    constexpr std::uint32_t kShort = 8;
+    List list = kListOS;
+    Run best = pair(kListOS, object, subject, version);
+    if (best.count > kShort) {
+      const Run sp = pair(kListSP, subject, predicate, version);
+      const Run po = pair(kListPO, predicate, object, version);
+      if (sp.count < best.count) best = sp, list = kListSP;
+      if (po.count < best.count) best = po, list = kListPO;
     }
-    return sp_count <= po_count ? search(kListSP, sp, subject, predicate, object, version)
-                                : search(kListPO, po, subject, predicate, object, version);
-  }
-
- private:
-  static constexpr std::uint32_t kShort = 8;
-  std::uint32_t search(List list, const Posting& posting, std::uint32_t subject,
-                       std::uint32_t predicate, std::uint32_t object, Version version) const {
-    for (std::uint32_t at = load(posting.head); at != 0;) {
+    for (std::uint32_t at = best.head; at != 0;) {
       const Triple& triple = triples[at];
       if (load(triple.added) > version) return 0;
       if (triple.predicate == predicate && triple.subject == subject && triple.object == object &&

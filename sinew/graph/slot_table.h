@@ -1,7 +1,8 @@
 // A hash table of 32-bit numbers that stand for keys which lie elsewhere. A slot is one 64-bit
-// word, the key's 32-bit hash and the number, so that it is read and written atomically: one thread
-// may insert while others look up. Nothing is ever erased. Tables that were outgrown stay until the
-// end, because a reader may still be in one; together they are no larger than the present one.
+// word: a mark, 31 bits of the key's hash, and the number; so it is read and written atomically,
+// and one thread may change the table while others look up. What the mark says about the number is
+// up to the user. Tables that were outgrown stay until the end, because a reader may still be in
+// one; together they are no larger than the present one.
 #pragma once
 
 #include <atomic>
@@ -21,24 +22,62 @@ class SlotTable {
     publish();
   }
 
-  // The number whose key has this hash and for which `is_key(number)` holds, or 0.
+  // What a slot holds. One word, so that looking up needs no memory.
+  class Slot {
+   public:
+    explicit Slot(std::uint64_t word = 0) : word_(word) {}
+    explicit operator bool() const { return word_ != 0; }
+    std::uint32_t number() const { return static_cast<std::uint32_t>(word_); }
+    bool marked() const { return word_ >> 63 != 0; }
+
+   private:
+    std::uint64_t word_;
+  };
+  // The number whose key has this hash and for which `is_key(Slot)` holds; false where there is
+  // none. `at` is set to where it is, valid until the table grows.
   template <typename IsKey>
-  std::uint32_t find(std::uint32_t hash, IsKey&& is_key) const {
+  Slot find(std::uint32_t hash, IsKey&& is_key, std::uint32_t* at = nullptr) const {
     const Table* table = table_.load(std::memory_order_acquire);
-    for (std::uint32_t at = hash & table->mask;; at = (at + 1) & table->mask) {
-      const std::uint64_t slot = table->slots[at].load(std::memory_order_acquire);
-      if (slot == 0) return 0;
-      const auto number = static_cast<std::uint32_t>(slot);
-      if (static_cast<std::uint32_t>(slot >> 32) == hash && is_key(number)) return number;
+    hash &= kHashBits;
+    for (std::uint32_t here = hash & table->mask;; here = (here + 1) & table->mask) {
+      const std::uint64_t word = table->slots[here].load(std::memory_order_acquire);
+      if (word == 0) return Slot();
+      if ((static_cast<std::uint32_t>(word >> 32) & kHashBits) != hash) continue;
+      const Slot slot(word);
+      if (slot.number() == 0 || !is_key(slot)) continue;
+      if (at) *at = here;
+      return slot;
     }
   }
 
-  // Precondition: number > 0, and its key is not in the table. Writer only.
-  void insert(std::uint32_t hash, std::uint32_t number) {
+  // ---- writer only ----
+
+  // Returns the slot. Precondition: number > 0, and its key is not in the table.
+  std::uint32_t insert(std::uint32_t hash, std::uint32_t number, bool marked = false) {
     if (used_ >= limit_) grow();
-    place(*table_.load(std::memory_order_relaxed), std::uint64_t{hash} << 32 | number);
     ++used_;
+    return place(present(), word(hash, number, marked));
   }
+  Slot at(std::uint32_t slot) const {
+    return Slot(present().slots[slot].load(std::memory_order_relaxed));
+  }
+  // Gives the key in this slot another number.
+  void replace(std::uint32_t slot, std::uint32_t number, bool marked) {
+    std::atomic<std::uint64_t>& word = present().slots[slot];
+    const auto hash = static_cast<std::uint32_t>(word.load(std::memory_order_relaxed) >> 32);
+    word.store(this->word(hash, number, marked), std::memory_order_release);
+  }
+  // Takes out what was inserted last of all that is there; `growths()` then tells whether the table
+  // grew since. If it did, the order of the slots is another one, and a stone stays behind until it
+  // grows again.
+  void erase(std::uint32_t slot, bool grew_since) {
+    Table& table = present();
+    const bool keeps_chain =
+        grew_since && table.slots[(slot + 1) & table.mask].load(std::memory_order_relaxed) != 0;
+    table.slots[slot].store(keeps_chain ? kStone : 0, std::memory_order_release);
+    if (!keeps_chain) --used_;
+  }
+  std::uint32_t growths() const { return growths_; }
 
   // Precondition: this one is new.
   void copy_from(const SlotTable& other) {
@@ -63,23 +102,35 @@ class SlotTable {
     std::atomic<std::uint64_t>* slots;
   };
 
-  static void place(Table& table, std::uint64_t slot) {
-    std::uint32_t at = static_cast<std::uint32_t>(slot >> 32) & table.mask;
+  static constexpr std::uint32_t kMark = 0x80000000u, kHashBits = 0x7FFFFFFFu;
+  static constexpr std::uint64_t kStone = std::uint64_t{kHashBits} << 32;  // the number is 0
+
+  static std::uint64_t word(std::uint32_t hash, std::uint32_t number, bool marked) {
+    return std::uint64_t{(hash & kHashBits) | (marked ? kMark : 0)} << 32 | number;
+  }
+  static std::uint32_t place(Table& table, std::uint64_t slot) {
+    std::uint32_t at = static_cast<std::uint32_t>(slot >> 32) & kHashBits & table.mask;
     while (table.slots[at].load(std::memory_order_relaxed) != 0) at = (at + 1) & table.mask;
     table.slots[at].store(slot, std::memory_order_release);
+    return at;
   }
   void install(std::uint32_t mask) {
     tables_.push_back(std::make_unique<Table>(mask));
     // Five eighths full at most, and nearly full only when there are no more numbers.
     limit_ = mask == UINT32_MAX ? UINT32_MAX - 1 : mask / 8 * 5;
   }
+  Table& present() const { return *table_.load(std::memory_order_relaxed); }
   void publish() { table_.store(tables_.back().get(), std::memory_order_release); }
   void grow() {
     const Table* old = table_.load(std::memory_order_relaxed);
     install(old->mask * 2 + 1);
+    ++growths_;
+    used_ = 0;
     for (std::size_t at = 0; at <= old->mask; ++at) {
       const std::uint64_t slot = old->slots[at].load(std::memory_order_relaxed);
-      if (slot != 0) place(*tables_.back(), slot);
+      if (static_cast<std::uint32_t>(slot) == 0) continue;
+      place(*tables_.back(), slot);
+      ++used_;
     }
     publish();
   }
@@ -87,6 +138,7 @@ class SlotTable {
   std::atomic<Table*> table_ = nullptr;
   std::uint32_t used_ = 0;
   std::uint32_t limit_ = 0;
+  std::uint32_t growths_ = 0;
   std::vector<std::unique_ptr<Table>> tables_;
 };
 

@@ -126,13 +126,14 @@ const char* Terms::Data::copy(std::string_view text, std::string_view more) {
 
 std::uint32_t Terms::Data::find_text(std::uint32_t hash, TermKind kind, std::string_view text,
                                      std::uint32_t datatype, std::string_view language) const {
-  return by_text.find(hash, [&](std::uint32_t id) {
-    const TermEntry& entry = entries[id];
+  const auto found = by_text.find(hash, [&](SlotTable::Slot slot) {
+    const TermEntry& entry = entries[slot.number()];
     return entry.kind == kind && entry.link == datatype && entry.size == text.size() &&
            entry.language_size == language.size() &&
            std::string_view(entry.text, entry.size) == text &&
            std::string_view(entry.text + entry.size, entry.language_size) == language;
   });
+  return found.number();
 }
 
 // ---- life ----
@@ -251,15 +252,15 @@ Id Terms::derived(Id role, std::initializer_list<Id> parts) {
 Id Terms::derived(Id role, std::span<const Id> parts) {
   Data& data = *data_;
   const std::uint32_t hash = hash_parts(role.value, parts);
-  const std::uint32_t found = data.by_parts.find(hash, [&](std::uint32_t number) {
-    const DerivedEntry& entry = data.derived[number - 1];
+  const SlotTable::Slot known = data.by_parts.find(hash, [&](SlotTable::Slot slot) {
+    const DerivedEntry& entry = data.derived[slot.number() - 1];
     if (entry.role != role.value || entry.count != parts.size()) return false;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (entry.parts[i] != parts[i].value) return false;
     }
     return true;
   });
-  if (found) {
+  if (const std::uint32_t found = known.number()) {
     const std::uint32_t id = data.derived_ids[found - 1];
     const auto same = data.same_as_text.find(id);
     return {same == data.same_as_text.end() ? id : same->second};

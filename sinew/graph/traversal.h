@@ -105,7 +105,7 @@ class Traversal {
   Traversal& where(Predicate keep) { return add({.op = Op::kFilter, .keep = std::move(keep)}); }
   Traversal& simple_path() {
     return add({.op = Op::kSimplePath});
-  }  // drops who comes back to a node
+  }                                                       // drops who comes back to a node
   Traversal& dedup() { return add({.op = Op::kDedup}); }  // drops who comes to a node later
 
   // ---- remembering and computing ----

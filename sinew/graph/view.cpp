@@ -47,8 +47,7 @@ std::size_t View::estimate(Id subject, Id predicate, Id object) const {
                      estimate({}, predicate, object), estimate(subject, {}, object)});
   }
   List list;
-  const Posting* posting = in.posting(subject.value, predicate.value, object.value, list);
-  return posting ? load(posting->count) : 0;
+  return in.run(subject.value, predicate.value, object.value, version(), list).count;
 }
 
 std::size_t View::distinct_subjects(Id predicate) const {

@@ -137,9 +137,8 @@ bool View::visit_triples(Id subject, Id predicate, Id object, Visit&& visit) con
     return true;
   }
   List list;
-  const Posting* posting = in.posting(subject.value, predicate.value, object.value, list);
-  if (!posting) return true;
-  for (std::uint32_t at = load(posting->head); at != 0;) {
+  const Records::Run run = in.run(subject.value, predicate.value, object.value, at_version, list);
+  for (std::uint32_t at = run.head; at != 0;) {
     const Triple& triple = in.triples[at];
     if (load(triple.added) > at_version) break;
     if (Records::still_there(triple, at_version) && !visit(triple)) return false;

@@ -10,22 +10,6 @@ Writer::Writer(std::uint32_t limit) : limit_(limit) {}
 
 // ---- where things are appended ----
 
-std::uint32_t Writer::pair_posting(List list, std::uint32_t first, std::uint32_t second) {
-  const std::uint32_t hash = hash_pair(first, second);
-  const std::uint32_t found = records.pairs[list].find(hash, [&](std::uint32_t candidate) {
-    const Posting& posting = records.postings[candidate];
-    return posting.first == first && posting.second == second;
-  });
-  if (found) return found;
-  const std::uint32_t number = ++records.posting_count;
-  Posting& posting = records.postings.reserve(number);
-  posting.first = first;
-  posting.second = second;
-  posting.patience = kFirstPatience;
-  records.pairs[list].insert(hash, number);
-  return number;
-}
-
 std::uint32_t& Writer::node_posting(List list, std::uint32_t term) {
   Node& node = records.nodes.reserve(term);
   return list == kListS ? node.as_subject : list == kListP ? node.as_predicate : node.as_object;
@@ -54,13 +38,48 @@ std::uint32_t Writer::graph_number(std::uint32_t name) {
 }
 
 // A predicate's distinct subjects or objects: its SP or PO lists that are not empty.
-void Writer::count_pair(List list, std::uint32_t number, int by) {
+void Writer::count_pair(List list, std::uint32_t predicate, int by) {
   if (list == kListOS) return;
-  const Posting& pair = records.postings[number];
-  const std::uint32_t predicate = list == kListSP ? pair.second : pair.first;
   Posting& all = records.postings[node_posting(kListP, predicate)];
   std::uint32_t& counter = list == kListSP ? all.distinct_subjects : all.distinct_objects;
   store(counter, counter + static_cast<std::uint32_t>(by));
+}
+
+void Writer::append(Posting& posting, List list, std::uint32_t triple, std::uint32_t& tail_before) {
+  tail_before = posting.tail;
+  store(posting.tail == 0 ? posting.head : records.triples[posting.tail].next[list], triple);
+  posting.tail = triple;
+  store(posting.count, posting.count + 1);
+}
+
+// Returns the slot in the table of pairs.
+std::uint32_t Writer::append_pair(List list, std::uint32_t triple, Version version,
+                                  std::uint32_t& tail_before) {
+  SlotTable& table = records.pairs[list];
+  const Records::Pair pair = Records::pair_of(records.triples[triple], list);
+  const std::uint32_t predicate = records.triples[triple].predicate;
+  std::uint32_t at = 0;
+  const SlotTable::Slot found = records.find_pair(list, pair, version, &at);
+  if (!found) {
+    count_pair(list, predicate, 1);
+    return table.insert(hash_pair(pair.first, pair.second), triple);
+  }
+  std::uint32_t number = found.number();
+  if (!found.marked()) {
+    number = ++records.posting_count;
+    Posting& made = records.postings.reserve(number);
+    made.first = pair.first;
+    made.second = pair.second;
+    made.patience = kFirstPatience;
+    made.tail = found.number();
+    store(made.count, 1);
+    store(made.head, found.number());
+    table.replace(at, number, true);
+  }
+  Posting& posting = records.postings[number];
+  if (posting.count == 0) count_pair(list, predicate, 1);
+  append(posting, list, triple, tail_before);
+  return at;
 }
 
 void Writer::prepare() {
@@ -87,12 +106,7 @@ bool Writer::add(const Quad& quad, Version version) {
   }
   prepare();
   Change change{};
-  change.pairs[kListSP] = pair_posting(kListSP, subject, predicate);
-  change.pairs[kListPO] = pair_posting(kListPO, predicate, object);
-  change.pairs[kListOS] = pair_posting(kListOS, object, subject);
-  const std::uint32_t present = records.search(
-      records.postings[change.pairs[kListSP]], records.postings[change.pairs[kListPO]],
-      records.postings[change.pairs[kListOS]], subject, predicate, object, version);
+  const std::uint32_t present = records.find(subject, predicate, object, version);
   if (present) {
     if (find_membership(present, quad.graph.value)) return false;
     change.kind = Change::kAddMembership;
@@ -117,20 +131,13 @@ bool Writer::add(const Quad& quad, Version version) {
   for (std::uint32_t& next : triple.next) store(next, 0);
   change.membership = append_membership(number, quad.graph.value, version, change);
 
-  const std::uint32_t lists[kLists] = {change.pairs[kListSP],
-                                       change.pairs[kListPO],
-                                       change.pairs[kListOS],
-                                       single_posting(kListS, subject),
-                                       single_posting(kListP, predicate),
-                                       single_posting(kListO, object)};
-  for (std::uint32_t list = 0; list < kLists; ++list) {
-    Posting& posting = records.postings[lists[list]];
-    change.tails[list] = posting.tail;
-    store(posting.tail == 0 ? posting.head : records.triples[posting.tail].next[list], number);
-    posting.tail = number;
-    store(posting.count, posting.count + 1);
-    if (posting.count == 1 && list < kListOS) count_pair(static_cast<List>(list), lists[list], 1);
+  append(records.postings[single_posting(kListS, subject)], kListS, number, change.tails[kListS]);
+  append(records.postings[single_posting(kListP, predicate)], kListP, number, change.tails[kListP]);
+  append(records.postings[single_posting(kListO, object)], kListO, number, change.tails[kListO]);
+  for (const List list : {kListSP, kListPO, kListOS}) {
+    change.pairs[list] = append_pair(list, number, version, change.tails[list]);
   }
+  change.growths = growths();
   store(records.triple_count, number);
   ++records.live_count;
   note(change);

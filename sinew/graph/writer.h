@@ -17,7 +17,8 @@ struct Change {
   Kind kind;
   std::uint32_t record;         // the triple, or the mark
   std::uint32_t graph_tail;     // the graph's last membership before
-  std::uint32_t pairs[3];       // kAddTriple: the postings of SP, PO, OS
+  std::uint32_t pairs[3];       // kAddTriple: the slots of SP, PO, OS in their tables
+  std::uint32_t growths;        // kAddTriple: of these tables, so far
   std::uint32_t tails[kLists];  // kAddTriple: each list's last triple before;
                                 // kAddMembership: [0] the triple's last membership before
   std::uint32_t graph;          // kAddMembership: Triple::graph before; marks: the graph's number
@@ -55,7 +56,14 @@ class Writer {
   // A longer log's memory is given back after its transaction.
   static constexpr std::uint32_t kLargeLog = 1 << 16;
 
-  std::uint32_t pair_posting(List list, std::uint32_t first, std::uint32_t second);
+  std::uint32_t append_pair(List list, std::uint32_t triple, Version version,
+                            std::uint32_t& tail_before);
+  void append(Posting& posting, List list, std::uint32_t triple, std::uint32_t& tail_before);
+  void undo_pair(List list, const Change& change, bool grew);
+  void undo_append(Posting& posting, List list, std::uint32_t tail_before);
+  std::uint32_t growths() const {
+    return records.pairs[0].growths() + records.pairs[1].growths() + records.pairs[2].growths();
+  }
   std::uint32_t& node_posting(List list, std::uint32_t term);
   std::uint32_t single_posting(List list, std::uint32_t term);
   std::uint32_t graph_number(std::uint32_t name);
@@ -68,8 +76,9 @@ class Writer {
   // To be called before a change, so that nothing can fail between it and its note.
   void prepare();
   void note(const Change& change) { (*log_)[change_count_++] = change; }
-  void count_pair(List list, std::uint32_t posting, int by);
-  void sweep(std::uint32_t posting, List list, Version oldest);
+  void count_pair(List list, std::uint32_t predicate, int by);
+  void sweep_pair(List list, const Triple& triple, Version oldest);
+  void sweep(Posting& posting, List list, Version oldest);
   void sweep_graph(std::uint32_t posting, Version oldest);
   void sweep_triple(Triple& triple, Version oldest);
 

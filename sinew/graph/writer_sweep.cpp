@@ -16,12 +16,10 @@ void Writer::finish(Version oldest) {
       if (change.membership % kTripleSweep == 0) sweep_triple(triple, oldest);
       continue;
     }
-    sweep(pair_posting(kListSP, triple.subject, triple.predicate), kListSP, oldest);
-    sweep(pair_posting(kListPO, triple.predicate, triple.object), kListPO, oldest);
-    sweep(pair_posting(kListOS, triple.object, triple.subject), kListOS, oldest);
-    sweep(node_posting(kListS, triple.subject), kListS, oldest);
-    sweep(node_posting(kListP, triple.predicate), kListP, oldest);
-    sweep(node_posting(kListO, triple.object), kListO, oldest);
+    for (const List list : {kListSP, kListPO, kListOS}) sweep_pair(list, triple, oldest);
+    sweep(records.postings[node_posting(kListS, triple.subject)], kListS, oldest);
+    sweep(records.postings[node_posting(kListP, triple.predicate)], kListP, oldest);
+    sweep(records.postings[node_posting(kListO, triple.object)], kListO, oldest);
   }
   if (change_count_ > kLargeLog) log_ = std::make_unique<StableArray<Change>>();
   change_count_ = 0;
@@ -58,14 +56,22 @@ bool patient(Posting& posting) {
 
 }  // namespace
 
-void Writer::sweep(std::uint32_t number, List list, Version oldest) {
-  Posting& posting = records.postings[number];
+// A list of one triple has no posting, and stays as it is.
+void Writer::sweep_pair(List list, const Triple& triple, Version oldest) {
+  const SlotTable::Slot found = records.find_pair(list, Records::pair_of(triple, list), kNever - 1);
+  if (!found.marked()) return;
+  Posting& posting = records.postings[found.number()];
+  const bool was_empty = posting.count == 0;
+  sweep(posting, list, oldest);
+  if (posting.count == 0 && !was_empty) count_pair(list, triple.predicate, -1);
+}
+
+void Writer::sweep(Posting& posting, List list, Version oldest) {
   if (patient(posting)) return;
   const std::uint32_t kept =
       unlink(records.triples, posting.head, posting.tail, posting.count, oldest,
              [list](Triple& triple) -> std::uint32_t& { return triple.next[list]; });
   posting.patience = posting.count + kept + kFirstPatience;
-  if (posting.count == 0 && list < kListOS) count_pair(list, number, -1);
 }
 
 void Writer::sweep_graph(std::uint32_t number, Version oldest) {

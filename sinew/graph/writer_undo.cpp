@@ -10,23 +10,17 @@ void Writer::undo_to(std::size_t mark) {
 void Writer::undo(const Change& change) {
   switch (change.kind) {
     case Change::kAddTriple: {
-      const Triple& triple = records.triples[change.record];
-      const std::uint32_t lists[kLists] = {change.pairs[kListSP],
-                                           change.pairs[kListPO],
-                                           change.pairs[kListOS],
-                                           records.nodes[triple.subject].as_subject,
-                                           records.nodes[triple.predicate].as_predicate,
-                                           records.nodes[triple.object].as_object};
-      for (std::uint32_t list = 0; list < kLists; ++list) {
-        Posting& posting = records.postings[lists[list]];
-        const std::uint32_t tail = change.tails[list];
-        store(tail == 0 ? posting.head : records.triples[tail].next[list], 0);
-        posting.tail = tail;
-        store(posting.count, posting.count - 1);
-        if (posting.count == 0 && list < kListOS) {
-          count_pair(static_cast<List>(list), lists[list], -1);
-        }
-      }
+      Triple& triple = records.triples[change.record];
+      const bool grew = growths() != change.growths;
+      for (const List list : {kListOS, kListPO, kListSP}) undo_pair(list, change, grew);
+      // From here on, no reader takes it for a triple.
+      store(triple.added, kNever);
+      undo_append(records.postings[records.nodes[triple.object].as_object], kListO,
+                  change.tails[kListO]);
+      undo_append(records.postings[records.nodes[triple.predicate].as_predicate], kListP,
+                  change.tails[kListP]);
+      undo_append(records.postings[records.nodes[triple.subject].as_subject], kListS,
+                  change.tails[kListS]);
       undo_membership(change);
       store(records.triple_count, records.triple_count - 1);
       --records.live_count;
@@ -55,6 +49,28 @@ void Writer::undo(const Change& change) {
       store(records.marks[change.record].removed, kNever);
       break;
   }
+}
+
+void Writer::undo_append(Posting& posting, List list, std::uint32_t tail) {
+  store(tail == 0 ? posting.head : records.triples[tail].next[list], 0);
+  posting.tail = tail;
+  store(posting.count, posting.count - 1);
+}
+
+void Writer::undo_pair(List list, const Change& change, bool grew) {
+  const Triple& triple = records.triples[change.record];
+  SlotTable& table = records.pairs[list];
+  std::uint32_t at = change.pairs[list];
+  if (grew) records.find_pair(list, Records::pair_of(triple, list), triple.added, &at);
+  const SlotTable::Slot slot = table.at(at);
+  if (slot.marked()) {
+    Posting& posting = records.postings[slot.number()];
+    undo_append(posting, list, change.tails[list]);
+    if (posting.count > 0) return;
+  } else {
+    table.erase(at, grew);
+  }
+  count_pair(list, triple.predicate, -1);
 }
 
 void Writer::undo_membership(const Change& change) {

@@ -198,6 +198,34 @@ TEST_F(TransactionTest, TakesBackToAMark) {
             (std::vector<Quad>{{t(0), t(1), t(2)}, {t(0), t(1), t(5)}}));
 }
 
+// The tables of pairs grow meanwhile, and other triples take the records that are free again.
+TEST_F(TransactionTest, TakesBackManyTriplesWhateverGrewMeanwhile) {
+  const auto node = [&](int i) { return store.terms().iri("http://e/n" + std::to_string(i)); };
+  const Id is = node(0);
+  Transaction transaction = store.begin();
+  for (int i = 1; i <= 50; ++i) transaction.add({node(i), is, node(i + 1)});
+  for (const int count : {10, 3000, 100, 9000}) {
+    const auto mark = transaction.mark();
+    for (int i = 1; i <= count; ++i) {
+      transaction.add({node(i), is, node(i + count)});
+      transaction.add({node(i), node(i + 1), node(i % 7)});
+    }
+    EXPECT_EQ(transaction.view().size(), 50u + 2 * static_cast<std::size_t>(count));
+    transaction.undo_to(mark);
+    const View view = transaction.view();
+    EXPECT_EQ(view.size(), 50u);
+    EXPECT_EQ(view.distinct_subjects(is), 50u);
+    EXPECT_EQ(view.distinct_objects(is), 50u);
+    for (int i = 1; i <= count; ++i) {
+      std::vector<Id> found;
+      view.match(node(i), is, {}, Dataset::kUnion,
+                 [&](const Quad& quad) { return found.push_back(quad.object), true; });
+      EXPECT_EQ(found, i <= 50 ? std::vector<Id>{node(i + 1)} : std::vector<Id>{});
+      EXPECT_FALSE(view.contains(node(i), node(i + 1), node(i % 7)));
+    }
+  }
+}
+
 TEST_F(TransactionTest, ASecondOneOfTheSameThreadIsAnErrorNotADeadlock) {
   Transaction transaction = store.begin();
   EXPECT_THROW(store.begin(), Error);
