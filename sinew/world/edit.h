@@ -1,0 +1,61 @@
+// Several changes of a world's structure as one: readers, and the graph, see all of them from
+// `commit` on, or none. One edit at a time; another waits. An edit that is destroyed without commit
+// leaves no trace.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <set>
+#include <utility>
+
+#include "sinew/world/world.h"
+
+namespace sinew::world {
+
+class Edit {
+ public:
+  Edit(Edit&& other) noexcept = default;
+  ~Edit();
+
+  // As the World's functions of the same name.
+  FrameId add_frame(std::string_view iri);
+  ObjectId add_object(std::string_view iri, FrameId frame, std::string_view model = {});
+  RelationId add_relation(const RelationSpec& spec);
+  MeasurementId add_measurement(const MeasurementSpec& spec);
+  MeasurementId add_static(std::string_view relation_iri, FrameId of, FrameId with_respect_to,
+                           const Pose& pose, std::string_view provenance);
+  void remove(FrameId frame);
+  void remove(RelationId relation);
+  void remove(MeasurementId measurement);
+  void remove(ObjectId object);
+  RelationId attach(FrameId frame, FrameId parent, Stamp now, std::string_view provenance);
+  RelationId detach(FrameId frame, FrameId parent, Stamp now, std::string_view provenance);
+  // An object moves to another frame, without a change of any pose.
+  void set_frame(ObjectId object, FrameId frame);
+  // A first value for a measurement that this edit has added; nobody reads it yet.
+  void set_value(MeasurementId measurement, Stamp stamp, std::span<const double> values);
+
+  // The pose as this edit's structure has it.
+  PoseAnswer pose(FrameId of, FrameId with_respect_to, Stamp now) const;
+  const State& state() const { return next_; }
+
+  void commit();
+
+ private:
+  friend class World;
+  friend struct Merger;
+  explicit Edit(std::shared_ptr<WorldImpl> world);
+  Name new_name(std::string_view iri);
+  void touch(ElementKind kind, Index index) { touched_.emplace(kind, index); }
+  void unlink(Index relation, Index frame);
+  RelationId attach_with(FrameId frame, FrameId parent, const Pose& pose, Stamp now,
+                         std::string_view provenance);
+
+  std::shared_ptr<WorldImpl> world_;
+  std::unique_lock<std::mutex> lock_;
+  State next_;
+  EditToken token_;
+  std::set<std::pair<ElementKind, Index>> touched_;
+};
+
+}  // namespace sinew::world

@@ -1,0 +1,177 @@
+#include "sinew/world/handles.h"
+
+#include <cmath>
+
+#include "sinew/world/impl.h"
+#include "sinew/world/reading.h"
+
+namespace sinew::world {
+namespace {
+
+void let_go(const std::shared_ptr<WorldImpl>& world, const std::unique_ptr<WriterState>& state) {
+  if (!world || !state) return;
+  const std::lock_guard lock(world->editing);
+  std::erase(world->writers, state.get());
+  for (const auto& target : state->targets) {
+    target->cell->claimed_by.clear();
+  }
+}
+
+// While one lives, `clone` waits for the write; the epoch is one that no clone has seen yet.
+class Writing {
+ public:
+  Writing(WriterState& state, const WorldImpl& world) : state_(state) {
+    sequence_ = state_.active.load(std::memory_order_relaxed);
+    // Before the epoch is read, for the one that makes a clone: it changes the epoch and then looks
+    // at this word.
+    state_.active.store(sequence_ + 1, std::memory_order_seq_cst);
+    epoch = world.epoch.load(std::memory_order_seq_cst);
+  }
+  ~Writing() { state_.active.store(sequence_ + 2, std::memory_order_release); }
+  Writing(const Writing&) = delete;
+  Writing& operator=(const Writing&) = delete;
+  Epoch epoch;
+
+ private:
+  WriterState& state_;
+  std::uint64_t sequence_;
+};
+
+// Takes the spare out of its place if the write needed it.
+struct Spare {
+  explicit Spare(WriterState::Target& of)
+      : target(of), ring(of.spare.load(std::memory_order_acquire)), before(ring) {}
+  ~Spare() {
+    if (ring != before) target.spare.store(nullptr, std::memory_order_release);
+  }
+  WriterState::Target& target;
+  Ring* ring;
+  Ring* before;
+};
+
+std::optional<Stamp> last_stamp(const Cell& cell) {
+  const Cell::View view = cell.view(kNow);
+  if (view.count == 0) return std::nullopt;
+  return cell.stamp(view, view.count - 1);
+}
+
+bool finite(const double* values, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!std::isfinite(values[i])) return false;
+  }
+  return true;
+}
+
+// Makes quaternions exactly unit, in place.
+bool make_acceptable(bool is_pose, double* values, std::size_t count) {
+  if (!is_pose) return finite(values, count);
+  Pose X = load_pose(values);
+  if (!normalise(X)) return false;
+  store_pose(X, values);
+  return true;
+}
+
+}  // namespace
+
+Writer::Writer(std::shared_ptr<WorldImpl> world, std::unique_ptr<WriterState> state)
+    : world_(std::move(world)), state_(std::move(state)) {}
+Writer::Writer(Writer&&) noexcept = default;
+Writer& Writer::operator=(Writer&& other) noexcept {
+  std::swap(world_, other.world_);
+  std::swap(state_, other.state_);
+  return *this;
+}
+Writer::~Writer() { let_go(world_, state_); }
+
+Status Writer::write_values(Stamp stamp, const double* values, bool correction) {
+  WriterState::Target& target = *state_->targets.front();
+  Cell& cell = *target.cell;
+  const std::optional<Stamp> last = last_stamp(cell);
+  const bool past = last && stamp <= *last;
+  if (past && !correction) return Status::kOutOfOrder;
+  const Writing writing(*state_, *world_);
+  Spare spare(target);
+  if (past) {
+    return cell.correct(stamp, values, writing.epoch, spare.ring) ? Status::kOk : Status::kTooLate;
+  }
+  cell.append(stamp, values, writing.epoch, spare.ring);
+  return Status::kOk;
+}
+
+Status Writer::write(Stamp stamp, const Pose& pose) {
+  Pose X = pose;
+  if (!state_->targets.front()->is_pose || !normalise(X)) return Status::kNotANumber;
+  double values[7];
+  store_pose(X, values);
+  return write_values(stamp, values, false);
+}
+
+Status Writer::correct(Stamp stamp, const Pose& pose) {
+  Pose X = pose;
+  if (!state_->targets.front()->is_pose || !normalise(X)) return Status::kNotANumber;
+  double values[7];
+  store_pose(X, values);
+  return write_values(stamp, values, true);
+}
+
+Status Writer::write(Stamp stamp, std::span<const double> values) {
+  const WriterState::Target& target = *state_->targets.front();
+  if (values.size() != target.cell->values()) return Status::kNotANumber;
+  if (target.is_pose) return write(stamp, load_pose(values.data()));
+  if (!finite(values.data(), values.size())) return Status::kNotANumber;
+  return write_values(stamp, values.data(), false);
+}
+
+Status Writer::correct(Stamp stamp, std::span<const double> values) {
+  const WriterState::Target& target = *state_->targets.front();
+  if (values.size() != target.cell->values()) return Status::kNotANumber;
+  if (target.is_pose) return correct(stamp, load_pose(values.data()));
+  if (!finite(values.data(), values.size())) return Status::kNotANumber;
+  return write_values(stamp, values.data(), true);
+}
+
+BatchWriter::BatchWriter(std::shared_ptr<WorldImpl> world, std::unique_ptr<WriterState> state)
+    : world_(std::move(world)), state_(std::move(state)) {
+  for (const auto& target : state_->targets) size_ += target->cell->values();
+}
+BatchWriter::BatchWriter(BatchWriter&&) noexcept = default;
+BatchWriter& BatchWriter::operator=(BatchWriter&& other) noexcept {
+  std::swap(world_, other.world_);
+  std::swap(state_, other.state_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+BatchWriter::~BatchWriter() { let_go(world_, state_); }
+
+Status BatchWriter::write(Stamp stamp, std::span<const double> values) {
+  if (values.size() != size_) return Status::kNotANumber;
+  const double* from = values.data();
+  for (const auto& target : state_->targets) {
+    double checked[kMaximumValues];
+    const std::size_t count = target->cell->values();
+    std::copy(from, from + count, checked);
+    if (!make_acceptable(target->is_pose, checked, count)) return Status::kNotANumber;
+    const std::optional<Stamp> last = last_stamp(*target->cell);
+    if (last && stamp <= *last) return Status::kOutOfOrder;
+    from += count;
+  }
+  const Writing writing(*state_, *world_);
+  // Even: not committed. The heads of the last batch were all set before it returned.
+  const std::uint64_t batch = state_->batch->load(std::memory_order_relaxed);
+  state_->batch->store(batch + 1, std::memory_order_release);
+  from = values.data();
+  for (const auto& target : state_->targets) {
+    double checked[kMaximumValues];
+    const std::size_t count = target->cell->values();
+    std::copy(from, from + count, checked);
+    make_acceptable(target->is_pose, checked, count);
+    Spare spare(*target);
+    target->cell->prepare(stamp, checked, writing.epoch, spare.ring);
+    from += count;
+  }
+  state_->batch->store(batch + 2, std::memory_order_release);
+  for (const auto& target : state_->targets) target->cell->finish();
+  return Status::kOk;
+}
+
+}  // namespace sinew::world

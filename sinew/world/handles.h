@@ -1,0 +1,75 @@
+// Writing from real-time threads. A handle has its measurements for itself; `write` is wait-free:
+// it allocates nothing, takes no lock, waits for nobody and always does the same bounded work
+// (after a clone once more: the ring is copied into a spare that `clone` made).
+//
+// A handle is used by one thread at a time. It keeps what it needs alive, so it may outlive its
+// measurement: what is written then is seen by nobody.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sinew/world/answer.h"
+#include "sinew/world/cell.h"
+
+namespace sinew::world {
+
+struct WorldImpl;
+
+// What a clone has to know of a handle: whether a write is under way, and its spares.
+struct WriterState {
+  std::atomic<std::uint64_t> active = 0;  // odd while a write is under way
+  struct Target {
+    std::shared_ptr<Cell> cell;
+    std::atomic<Ring*> spare = nullptr;
+    bool is_pose = false;
+  };
+  std::vector<std::unique_ptr<Target>> targets;
+  std::shared_ptr<BatchState> batch;  // of a BatchWriter
+};
+
+class Writer {
+ public:
+  Writer(Writer&&) noexcept;
+  Writer& operator=(Writer&&) noexcept;
+  ~Writer();
+
+  // kOutOfOrder unless the stamp is later than the last one's; kNotANumber as World::write.
+  Status write(Stamp stamp, const Pose& pose);
+  Status write(Stamp stamp, std::span<const double> values);
+  // Puts a value in its place among the past ones, or replaces the one with the same stamp; moves
+  // at most as many entries as the ring holds.
+  Status correct(Stamp stamp, std::span<const double> values);
+  Status correct(Stamp stamp, const Pose& pose);
+
+ private:
+  friend class World;
+  Writer(std::shared_ptr<WorldImpl> world, std::unique_ptr<WriterState> state);
+  Status write_values(Stamp stamp, const double* values, bool correction);
+  std::shared_ptr<WorldImpl> world_;
+  std::unique_ptr<WriterState> state_;
+};
+
+// Several measurements that change as one: the joint positions of a robot, a pose and its twist.
+class BatchWriter {
+ public:
+  BatchWriter(BatchWriter&&) noexcept;
+  BatchWriter& operator=(BatchWriter&&) noexcept;
+  ~BatchWriter();
+
+  // The numbers of all measurements one after the other, in the order in which they were claimed.
+  Status write(Stamp stamp, std::span<const double> values);
+  std::size_t size() const { return size_; }  // numbers of one write
+
+ private:
+  friend class World;
+  BatchWriter(std::shared_ptr<WorldImpl> world, std::unique_ptr<WriterState> state);
+  std::shared_ptr<WorldImpl> world_;
+  std::unique_ptr<WriterState> state_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace sinew::world

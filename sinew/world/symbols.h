@@ -1,0 +1,50 @@
+// A world's description in a graph, kept in step with its structure. Everything in the world's
+// named graph follows from the state; what else the store holds is left alone. Terms, with `w:` =
+// https://w3id.org/sinew/world# and `rel:` = the published spatial relations:
+//
+//   F a geom:Frame
+//   O a w:Object ; w:attached-to F ; w:instance-of M
+//   R a rel:Pose | w:Joint | w:Property ; rel:of F ; rel:with-respect-to G ; w:suspended true
+//   M a w:Measurement ; w:of-relation R ; w:quantity "pose" ; w:life-cycle "static" ;
+//     w:provenance P ; w:coord-frame F ; w:used-by U ; w:value D
+//   D a w:DataBlock
+//   R w:measured-by M
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sinew/graph/store.h"
+#include "sinew/world/state.h"
+
+namespace sinew::world {
+
+inline constexpr std::string_view kWorldNamespace = "https://w3id.org/sinew/world#";
+
+struct Symbols {
+  // Describes the whole state in a new store.
+  Symbols(std::string_view world_iri, const Names& names, const State& state);
+  // A store of its own with what another one holds.
+  Symbols(const Symbols& other, std::string_view world_iri, const Names& names, const State& state);
+
+  using Touched = std::set<std::pair<ElementKind, Index>>;
+  // In one transaction: what was said of these elements goes, what is true of them now comes.
+  void update(const State& before, const State& after, const Touched& touched);
+
+  graph::Store store;
+
+ private:
+  void describe(const State& state, ElementKind kind, Index index, std::vector<graph::Quad>& quads);
+  void describe_all(const State& state);
+  graph::Id iri(Name name);
+  graph::Id world(std::string_view term);
+
+  const Names& names_;
+  graph::Id graph_;
+  std::vector<graph::Id> terms_;  // by Name::value
+};
+
+}  // namespace sinew::world
