@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <iterator>
+
+#include "sinew/runtime/crc32.h"
 
 namespace sinew::runtime {
 namespace {
@@ -60,22 +61,8 @@ std::string record(Opcode opcode, const Fields& fields) {
   return whole.bytes();
 }
 
-// CRC-32 of IEEE 802.3, reflected, as zlib computes it.
 std::uint32_t crc32(std::string_view bytes) {
-  static const auto table = [] {
-    std::array<std::uint32_t, 256> entries{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t value = i;
-      for (int bit = 0; bit < 8; ++bit)
-        value = (value & 1U) != 0 ? 0xEDB88320U ^ (value >> 1U) : value >> 1U;
-      entries[i] = value;
-    }
-    return entries;
-  }();
-  std::uint32_t crc = 0xffffffffU;
-  for (const char byte : bytes)
-    crc = table[(crc ^ static_cast<unsigned char>(byte)) & 0xffU] ^ (crc >> 8U);
-  return crc ^ 0xffffffffU;
+  return runtime::crc32(std::as_bytes(std::span(bytes)));
 }
 
 std::string quoted(std::string_view text) {
