@@ -28,15 +28,39 @@ void add_model_options(CLI::App& app, ModelOptions& options) {
 }
 
 void add_query_options(CLI::App& app, QueryOptions& options) {
-  auto* query = app.add_option("--query", options.query_file, "Query model (JSON-LD)");
-  app.add_option("--solver", options.solver, "Named query of solvers/, for example rnea")
-      ->excludes(query);
+  app.add_option("--query", options.query_file, "Query model (JSON-LD)");
+  app.add_option_function<std::vector<std::string>>(
+      "--solver",
+      [&options](const std::vector<std::string>& names) {
+        for (const std::string& name : names)
+          options.solver += (options.solver.empty() ? "" : ",") + name;
+      },
+      "Named query of solvers/, for example rnea; several, with commas or repeated, are answered "
+      "by one program");
+  app.add_option("--ask", options.ask,
+                 "Ask for more: 'QUANTITY [of ELEMENT] [wrt FRAME] [seen-by FRAME]', for example "
+                 "'twist of tool wrt link3'; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_option("--give", options.give,
+                 "Give more: 'QUANTITY [of ELEMENT] [seen-by FRAME]', for example 'external-wrench "
+                 "of tool'; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
   app.add_option("--base", options.base, "Link or frame to start from (default: the only root)");
   app.add_option("--tip", options.tips,
                  "Link or frame to end at; may be repeated (default: leaves)");
-  app.add_option("--gravity", options.gravity,
-                 "Gravity vector x,y,z in m/s^2 seen from the base (default: the model's)");
+  app.add_option(
+      "--gravity", options.gravity,
+      "Gravity vector x,y,z in m/s^2 seen from the base (default: the model's); input: it "
+      "comes with each call");
   app.add_flag("--floating", options.floating, "The base moves freely");
+  app.add_flag("--forces-apart", options.forces_apart,
+               "Keep the share of each external wrench in each joint's force apart");
+  app.add_flag(
+      "--stationary-frames", options.stationary_frames,
+      "Acceleration twists of the body at the point in space where the frame is (spatial), "
+      "not of the frame's origin");
 }
 
 void add_derivative_option(CLI::App& app, QueryOptions& options) {

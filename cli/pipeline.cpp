@@ -1,7 +1,9 @@
 #include "pipeline.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <sstream>
 
 #include "output.h"
 #include "sinew/algorithm/read.h"
@@ -11,6 +13,7 @@
 #include "sinew/program/lower.h"
 #include "sinew/program/program_json.h"
 #include "sinew/rdf/catalogue/catalogue.h"
+#include "sinew/synthesis/combine_queries.h"
 #include "sinew/synthesis/read_query.h"
 #include "sinew/synthesis/synthesise.h"
 
@@ -25,7 +28,7 @@ namespace {
 bool is_program(const std::string& file) { return file.ends_with(".program.json"); }
 
 bool names_query(const QueryOptions& query) {
-  return !query.query_file.empty() || !query.solver.empty();
+  return !query.query_file.empty() || !query.solver.empty() || !query.ask.empty();
 }
 
 void print_note(const std::string& text) { std::cerr << "note: " << text << "\n"; }
@@ -49,17 +52,43 @@ catalogue::Catalogue catalogue_of(const ModelOptions& files) {
   return catalogue;
 }
 
-synthesis::Query query_of(const ModelOptions& files, const QueryOptions& options) {
-  synthesis::Query query = options.solver.empty()
-                               ? synthesis::parse_query(read_input(options.query_file),
-                                                        options.query_file, catalogue_of(files))
-                               : synthesis::named_query(options.solver);
+}  // namespace
+
+std::vector<synthesis::Query> queries_of(const ModelOptions& files, const QueryOptions& options) {
+  std::vector<synthesis::Query> queries;
+  if (!options.query_file.empty())
+    queries.push_back(synthesis::parse_query(read_input(options.query_file), options.query_file,
+                                             catalogue_of(files)));
+  std::istringstream names(options.solver);
+  for (std::string name; std::getline(names, name, ',');)
+    queries.push_back(synthesis::named_query(name));
+  if (queries.empty() || !options.ask.empty() || !options.give.empty()) {
+    synthesis::Query more;
+    more.name = "asked";
+    for (const std::string& text : options.ask) more.asked.push_back(parse_asked(text));
+    for (const std::string& text : options.give) more.given.push_back(parse_given(text));
+    queries.push_back(std::move(more));
+  }
+  return queries;
+}
+
+synthesis::Query query_of(std::vector<synthesis::Query> queries, const QueryOptions& options) {
+  synthesis::Query query =
+      queries.size() == 1 ? std::move(queries.front()) : synthesis::combined(queries);
   if (!options.base.empty()) query.base = options.base;
   if (!options.tips.empty()) query.tips = options.tips;
-  if (!options.gravity.empty()) query.gravity = parse_vector3(options.gravity, "--gravity");
+  if (options.gravity == "input") {
+    for (synthesis::Given& given : query.given) given.varies |= given.quantity == "gravity";
+  } else if (!options.gravity.empty()) {
+    query.gravity = parse_vector3(options.gravity, "--gravity");
+  }
   if (options.floating) query.floating = true;
+  if (options.forces_apart) query.forces = synthesis::Forces::kApart;
+  if (options.stationary_frames) query.frames = synthesis::Frames::kStationary;
   return query;
 }
+
+namespace {
 
 void normalise(Models& models, const synthesis::Query& query) {
   model::NormaliseOptions options;
@@ -80,7 +109,11 @@ void normalise(Models& models, const synthesis::Query& query) {
 graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOptions& options,
                        std::vector<std::string>* why) {
   if (!names_query(options)) return only_algorithm(models);
-  const synthesis::Query query = query_of(files, options);
+  return algorithm_of(models, query_of(queries_of(files, options), options), why);
+}
+
+graph::Id algorithm_of(Models& models, const synthesis::Query& query,
+                       std::vector<std::string>* why) {
   normalise(models, query);
   synthesis::Synthesis synthesis = synthesis::synthesise(models.store, query);
   for (const std::string& note : synthesis.notes) print_note(note);
@@ -103,6 +136,7 @@ program::Program program_of(Models& models, const ModelOptions& files, const Que
   const graph::Id algorithm = algorithm_of(models, files, options);
   std::string program_name = name;
   if (program_name.empty()) program_name = options.solver.empty() ? "program" : options.solver;
+  std::replace(program_name.begin(), program_name.end(), ',', '_');
   program::Program program = lowered(models, algorithm, program_name);
   program::add_derivatives(program, options.derivatives);
   return program;
@@ -143,6 +177,7 @@ std::string describe(const ModelOptions& files, const QueryOptions& query) {
   if (!query.query_file.empty()) {
     text += ", query " + std::filesystem::path(query.query_file).filename().string();
   }
+  for (const std::string& asked : query.ask) text += ", " + asked;
   return text;
 }
 

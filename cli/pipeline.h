@@ -11,6 +11,7 @@
 #include "sinew/graph/places.h"
 #include "sinew/graph/store.h"
 #include "sinew/program/program.h"
+#include "sinew/synthesis/query.h"
 
 namespace sinew::cli {
 
@@ -28,6 +29,13 @@ std::unique_ptr<Models> load(const ModelOptions& options);
 // `why` gets a line for each step that the planner chose.
 graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOptions& query,
                        std::vector<std::string>* why = nullptr);
+graph::Id algorithm_of(Models& models, const synthesis::Query& query,
+                       std::vector<std::string>* why = nullptr);
+
+// Each query that the options name, as it is; and all of them as one, with the options' base, tips,
+// gravity and policies.
+std::vector<synthesis::Query> queries_of(const ModelOptions& files, const QueryOptions& query);
+synthesis::Query query_of(std::vector<synthesis::Query> queries, const QueryOptions& options);
 
 // That algorithm, lowered; or the program that the only file is, if it ends in .program.json.
 // `name` is the program's; empty: the query's.

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sinew/synthesis/query.h"
+
 namespace sinew::cli {
 
 // Which models to read and how.
@@ -15,17 +17,26 @@ struct ModelOptions {
   bool lenient = false;
 };
 
-// Which query to answer on them. Without a query file and a solver the files must hold an
-// algorithm.
+// Which query to answer on them: all that is named here, together. Where nothing is, the files must
+// hold an algorithm.
 struct QueryOptions {
   std::string query_file;
-  std::string solver;
+  std::string solver;             // or several, with commas between them
+  std::vector<std::string> ask;   // each as parse_asked has it
+  std::vector<std::string> give;  // each as parse_given has it
   std::string base;
   std::vector<std::string> tips;
-  std::string gravity;  // "x,y,z" in m/s^2, seen from the base; empty: the model's
+  std::string gravity;  // "x,y,z" in m/s^2, seen from the base; "input"; empty: the model's
   bool floating = false;
+  bool forces_apart = false;
+  bool stationary_frames = false;
   std::vector<std::string> derivatives;  // "OUT/IN" each: sinew/program/derivatives.h
 };
+
+// "QUANTITY [of ELEMENT] [wrt FRAME] [seen-by FRAME]"
+synthesis::Asked parse_asked(const std::string& text);
+// "QUANTITY [of ELEMENT] [seen-by FRAME]"; of every joint where a quantity of joints is of none.
+synthesis::Given parse_given(const std::string& text);
 
 // "x,y,z" as three finite numbers; throws Error naming `option` otherwise.
 std::array<double, 3> parse_vector3(const std::string& text, const std::string& option);

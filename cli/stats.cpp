@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -68,11 +69,73 @@ std::size_t longest_chain(const program::Program& program) {
   return longest;
 }
 
+program::OperationCount operations_of(const program::Program& program) {
+  backend::COptions options;
+  options.name = program.name;
+  return backend::generate_c(program, options).operations;
+}
+
+Json as_json(const program::OperationCount& operations) {
+  return {{"add", operations.add},
+          {"multiply", operations.multiply},
+          {"divide", operations.divide},
+          {"sqrt", operations.sqrt},
+          {"sincos", operations.sincos}};
+}
+
+// Adds and multiplies that generated C spends on one sine with its cosine
+// (templates/c/sincos.c.mustache).
+constexpr std::size_t kOperationsOfSincos = 48;
+
+std::size_t adds_and_multiplies(const program::OperationCount& operations) {
+  return operations.add + operations.multiply;
+}
+std::size_t all_operations(const program::OperationCount& operations) {
+  return adds_and_multiplies(operations) + operations.divide + operations.sqrt +
+         kOperationsOfSincos * operations.sincos;
+}
+
+// The costs of several programs, their sum, and what is saved by one that does the same as all.
+Json compared(const std::vector<std::pair<std::string, program::OperationCount>>& programs,
+              const program::OperationCount& together,
+              std::size_t (*cost)(const program::OperationCount&)) {
+  Json rows = Json::object();
+  std::size_t sum = 0;
+  for (const auto& [name, operations] : programs) {
+    rows[name] = cost(operations);
+    sum += cost(operations);
+  }
+  rows["sum"] = sum;
+  rows["together"] = cost(together);
+  const double share = static_cast<double>(cost(together)) / static_cast<double>(sum);
+  rows["saved_percent"] = std::round(1000.0 * (1.0 - share)) / 10.0;
+  return rows;
+}
+
+// What each of several queries costs in a program of its own. Their algorithms join the models'
+// graph.
+std::vector<std::pair<std::string, program::OperationCount>> apart(Models& models,
+                                                                   const ModelOptions& files,
+                                                                   const QueryOptions& options) {
+  std::vector<std::pair<std::string, program::OperationCount>> programs;
+  std::vector<synthesis::Query> queries = queries_of(files, options);
+  if (queries.size() < 2) return programs;
+  for (synthesis::Query& query : queries) {
+    if (query.asked.empty()) continue;  // it only gives more to the others
+    const std::string name = query.name;
+    const graph::Id algorithm = algorithm_of(models, query_of({std::move(query)}, options));
+    programs.emplace_back(name, operations_of(lowered(models, algorithm, "statistics")));
+  }
+  return programs;
+}
+
 }  // namespace
 
 int run_stats(Arguments arguments) {
-  CLI::App app("Count an algorithm's data, closures, floating-point operations and memory.",
-               "sinew stats");
+  CLI::App app(
+      "Count an algorithm's data, closures, floating-point operations and memory; of several "
+      "queries also what each would cost by itself (adds and multiplies).",
+      "sinew stats");
   ModelOptions models_options;
   QueryOptions query;
   std::string format = "text";
@@ -87,9 +150,7 @@ int run_stats(Arguments arguments) {
   const graph::Id algorithm = algorithm_of(*models, models_options, query);
   const program::Program program = lowered(*models, algorithm, "statistics");
   const program::Program live = program::without_dead_closures(program);
-  backend::COptions options;
-  options.name = program.name;
-  const program::OperationCount operations = backend::generate_c(program, options).operations;
+  const program::OperationCount operations = operations_of(program);
 
   std::size_t memory = 0;
   for (const program::Variable& variable : live.variables) memory += variable.size * sizeof(double);
@@ -102,11 +163,13 @@ int run_stats(Arguments arguments) {
                          {"memory_bytes", memory},           {"longest_chain", longest_chain(live)},
                          {"inputs", interface.in_size},      {"outputs", interface.out_size},
                          {"state", interface.state_size}};
-  report["operations"] = {{"add", operations.add},
-                          {"multiply", operations.multiply},
-                          {"divide", operations.divide},
-                          {"sqrt", operations.sqrt},
-                          {"sincos", operations.sincos}};
+  report["operations"] = as_json(operations);
+  if (const auto programs = apart(*models, models_options, query); programs.size() > 1) {
+    report["adds and multiplies of each asked apart"] =
+        compared(programs, operations, adds_and_multiplies);
+    report["all floating-point operations of each asked apart"] =
+        compared(programs, operations, all_operations);
+  }
   if (format == "json") {
     write_output("", report.dump(1) + "\n");
     return kOk;

@@ -118,6 +118,18 @@ constexpr Row kRows[] = {
      "to.wrt = from.wrt",
      "al_B = R' al_A, a_B = R' a_A"},
 
+    // Gravity that varies. Seen from what falls freely, the base accelerates against it.
+    {"base-acceleration-from-gravity", SINEW_OWN "base-acceleration-from-gravity",
+     "gravity:linear-acceleration -> acceleration:acceleration-twist",
+     "acceleration.of = gravity.wrt; acceleration.wrt = gravity.of; "
+     "acceleration.at = gravity.seen",
+     "A = (0, -g)"},
+    {"free-fall-from-gravity", SINEW_OWN "free-fall-from-gravity",
+     "pose:pose gravity:linear-acceleration -> acceleration:acceleration-twist",
+     "gravity.seen = pose.wrt; acceleration.of = gravity.of; acceleration.wrt = gravity.wrt; "
+     "acceleration.seen = gravity.seen; acceleration.ref = pose.of",
+     "A = (0, g), about the origin of the pose's frame"},
+
     // Wrenches: what moves a body as it moves, and what a joint must transmit.
     {"newton-euler-wrench", SINEW_OWN "newton-euler-wrench",
      "rigid-body-inertia:rigid-body-inertia velocity-twist:velocity-twist "

@@ -42,6 +42,8 @@ constexpr std::array kQuantities = {
     Quantity{"momentum-matrix", 0, "KiloGM-M2 M-KiloGM", "", kAt},
     Quantity{"energy", 1, "J", "", kNone},
     Quantity{"position-vector", 3, "M", "", kJoint},
+    // Of gravity: of what falls freely, with respect to the base.
+    Quantity{"linear-acceleration", 3, "M-PER-SEC2", "", kJoint},
     Quantity{"linear-velocity", 3, "M-PER-SEC", "", kJoint},
     Quantity{"linear-jacobian-column", 3, "M", "UNITLESS", kJoint},
     Quantity{"linear-jacobian-block", 18, "M UNITLESS", "", kJoint},

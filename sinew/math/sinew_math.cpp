@@ -339,3 +339,11 @@ void sinew_floating_momentum_matrix_from_columns(const double* const columns[], 
                                                  double* A) {
   sinew_floating_jacobian_from_columns(columns, count, A);
 }
+
+void sinew_base_acceleration_from_gravity(const double* g, double* A) {
+  store(base_acceleration(load<Vector3>(g)), A);
+}
+
+void sinew_free_fall_from_gravity(const double* /*X*/, const double* g, double* A) {
+  store(free_fall(load<Vector3>(g)), A);
+}

@@ -60,6 +60,10 @@ void sinew_rotate_acceleration_twist_to_proximal(const double X_AB[12], const do
 void sinew_rotate_acceleration_twist_to_distal(const double X_AB[12], const double A_A[6],
                                                double A_B[6]);
 
+/* Gravity: the acceleration of a base that rests, and of what falls freely at the origin of X. */
+void sinew_base_acceleration_from_gravity(const double g[3], double A[6]);
+void sinew_free_fall_from_gravity(const double X[12], const double g[3], double A[6]);
+
 /* The wrench that gives a body with velocity V the acceleration A. */
 void sinew_newton_euler_wrench(const double I[10], const double V[6], const double A[6],
                                double W[6]);

@@ -86,6 +86,17 @@ AccelerationTwist<S> transform_to_distal_at_rest(const Pose<S>& X_AB,
           transpose_times(X_AB.R, A_A.linear + cross(A_A.angular, X_AB.p))};
 }
 
+// Gravity g as the acceleration of what falls freely, and the base's seen from there.
+template <typename S>
+AccelerationTwist<S> free_fall(const Vector3<S>& g) {
+  return {{S(0), S(0), S(0)}, g};
+}
+
+template <typename S>
+AccelerationTwist<S> base_acceleration(const Vector3<S>& g) {
+  return {{S(0), S(0), S(0)}, -g};
+}
+
 // The same twist, about the same point, seen from other directions: from B to A, and from A to B.
 template <typename S>
 VelocityTwist<S> rotate_to_proximal(const Pose<S>& X_AB, const VelocityTwist<S>& V_B) {

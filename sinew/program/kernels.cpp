@@ -84,6 +84,11 @@ std::vector<Kernel> make_kernels() {
             return rotate_to_distal(X_AB, A_A);
           }),
 
+      row("base-acceleration-from-gravity",
+          []<typename S>(const Vector3<S>& g) { return base_acceleration(g); }),
+      row("free-fall-from-gravity",
+          []<typename S>(const Pose<S>&, const Vector3<S>& g) { return free_fall(g); }),
+
       row("newton-euler-wrench",
           []<typename S>(const RigidBodyInertia<S>& I, const VelocityTwist<S>& V,
                          const AccelerationTwist<S>& A) { return newton_euler(I, V, A); }),

@@ -11,6 +11,8 @@ constexpr AskedQuantity kAsked[] = {
     {"acceleration-twist", Element::kFrame, "acceleration-twist", "acceleration-twist", true,
      false},
     {"joint-force", Element::kJoint, "force", "force", true, true},
+    {"joint-force-share", Element::kJoint, "force-share", "force-share", true, true},
+    {"joint-wrench", Element::kJoint, "joint-wrench", "joint-wrench", false, true},
     {"bias-force", Element::kJoint, "bias-force", "bias-force", true, true},
     {"joint-acceleration", Element::kJoint, "acceleration", "acceleration", true, true},
     {"mass-matrix", Element::kRobot, "mass-matrix", "mass-matrix", true, true},
@@ -36,6 +38,7 @@ constexpr GivenQuantity kGiven[] = {
     {"joint-acceleration", Element::kJoint, "acceleration"},
     {"joint-force", Element::kJoint, "force"},
     {"gravity", Element::kRobot, "base-acceleration"},
+    {"external-wrench", Element::kFrame, "wrench"},
 };
 
 template <typename Rows>

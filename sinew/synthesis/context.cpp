@@ -111,10 +111,11 @@ void Context::closure_with_counts(std::string_view operation, std::vector<BlockI
   builder.closure_with_counts(operation, std::move(arguments), std::move(counts), cause(about));
 }
 
-Id Context::pair(Id a, Id b) {
-  graph::Terms& terms = builder.terms();
+Id pair_of(graph::Terms& terms, Id a, Id b) {
   return terms.derived(terms.iri(std::string(algorithm::kAlgorithmNamespace) + "Pair"), {a, b});
 }
+
+Id Context::pair(Id a, Id b) { return pair_of(builder.terms(), a, b); }
 
 std::vector<double> Context::numbers(Id coordinate) const {
   std::vector<double> result;

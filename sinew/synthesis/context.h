@@ -14,6 +14,7 @@
 
 #include "sinew/algorithm/builder.h"
 #include "sinew/graph/store.h"
+#include "sinew/synthesis/external_wrenches.h"
 #include "sinew/synthesis/query.h"
 #include "sinew/synthesis/robot.h"
 #include "sinew/synthesis/step.h"
@@ -45,6 +46,9 @@ class Blackboard {
   std::map<std::pair<std::string, Id>, std::vector<Carried>> carried_;
 };
 
+// A node that stands for two elements: an entry of a matrix.
+Id pair_of(graph::Terms& terms, Id a, Id b);
+
 struct Context {
   graph::Store& store;
   graph::View view;  // of the model, and of the algorithm while it grows
@@ -57,6 +61,7 @@ struct Context {
   std::unordered_set<Id> scope = {};
   // Of each body: mass, first moment, rotational inertia; as stated, or regrouped (regroup.h).
   std::unordered_map<Id, std::array<double, 10>> inertias = {};
+  std::vector<ExternalWrench> wrenches = {};
   Blackboard board = {};
   const Step* step = nullptr;  // whose pass is running
 
@@ -80,8 +85,7 @@ struct Context {
 
   algorithm::Cause cause(Id about) const;
 
-  // A node that stands for two elements: an entry of a matrix.
-  Id pair(Id a, Id b);
+  Id pair(Id a, Id b);  // see pair_of
 
   // The numbers of a coordinate of the normalised tree.
   std::vector<double> numbers(Id coordinate) const;

@@ -31,8 +31,11 @@ void check(const Query& query, Report& report) {
     if (row->element == Element::kJoint && !given.of.empty() && given.of != kEveryJoint)
       report.error({}, given.of, fmt::format("{} is given for one joint alone", given.quantity),
                    "give it for " + std::string(kEveryJoint));
+    if (given.varies && given.quantity != "gravity")
+      report.error({}, given.of, fmt::format("{} that varies", given.quantity),
+                   "only gravity can be stated to vary; every other driver does anyway");
     for (std::size_t j = 0; j < i; ++j)
-      if (query.given[j].quantity == given.quantity)
+      if (query.given[j].quantity == given.quantity && row->element != Element::kFrame)
         report.error({}, given.of, fmt::format("{} is given twice", given.quantity),
                      "give it once");
   }
@@ -53,18 +56,51 @@ void make_joint_inputs(Context& context, const GivenQuantity& row) {
 }
 
 // Seen from an observer in free fall, a root at rest accelerates against gravity.
+algorithm::BlockSpec base_acceleration(const Context& context) {
+  return {.slot = "base-acceleration",
+          .represents = context.robot.root_frame,
+          .quantity = "acceleration-twist",
+          .of = context.robot.root_body,
+          .wrt = context.reference,
+          .reference = context.robot.root_frame,
+          .seen_by = context.robot.root_frame};
+}
+
 void make_gravity(Context& context) {
   const std::array<double, 6> value = {
       0, 0, 0, -context.gravity[0], -context.gravity[1], -context.gravity[2]};
-  context.make({.slot = "base-acceleration",
+  algorithm::BlockSpec spec = base_acceleration(context);
+  spec.role = Role::kConstant;
+  spec.value = value;
+  context.make(spec);
+}
+
+// The same from an input. What falls freely is the reference of all motion.
+void make_varying_gravity(Context& context) {
+  context.make({.slot = "gravity",
                 .represents = context.robot.root_frame,
-                .quantity = "acceleration-twist",
-                .of = context.robot.root_body,
-                .wrt = context.reference,
-                .reference = context.robot.root_frame,
+                .quantity = "linear-acceleration",
+                .of = context.reference,
+                .wrt = context.robot.root_body,
                 .seen_by = context.robot.root_frame,
-                .role = Role::kConstant,
-                .value = value});
+                .role = Role::kInput,
+                .label = algorithm::kWholeRobot});
+  context.make(base_acceleration(context));
+}
+
+void make_wrenches(Context& context) {
+  for (const ExternalWrench& one : context.wrenches) {
+    algorithm::BlockSpec spec = {
+        .slot = "wrench",
+        .represents = one.frame,
+        .quantity = "wrench",
+        .of = one.body,
+        .reference = one.frame,
+        .seen_by = one.seen_from_base ? context.robot.root_frame : one.frame,
+        .role = Role::kInput,
+        .label = one.label};
+    context.make(spec);
+  }
 }
 
 }  // namespace
@@ -84,8 +120,15 @@ algorithm::BlockSpec joint_quantity(std::string_view slot, const RobotJoint& joi
 std::vector<std::string> given_slots(const Query& query) {
   std::vector<std::string> slots;
   for (const Given& given : query.given)
-    if (const GivenQuantity* row = find_given(given.quantity)) slots.emplace_back(row->slot);
+    if (const GivenQuantity* row = find_given(given.quantity))
+      slots.emplace_back(given.varies ? "gravity" : row->slot);
   return slots;
+}
+
+bool gravity_varies(const Query& query) {
+  return std::any_of(query.given.begin(), query.given.end(), [](const Given& given) {
+    return given.quantity == "gravity" && given.varies;
+  });
 }
 
 void make_drivers(Context& context, Report& report) {
@@ -94,7 +137,11 @@ void make_drivers(Context& context, Report& report) {
     if (!gives(context.query, row.name)) continue;
     if (row.element == Element::kJoint)
       make_joint_inputs(context, row);
-    else if (row.name == "gravity")
+    else if (row.element == Element::kFrame)
+      make_wrenches(context);
+    else if (gravity_varies(context.query))
+      make_varying_gravity(context);
+    else
       make_gravity(context);
   }
 }

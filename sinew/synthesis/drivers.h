@@ -10,11 +10,14 @@ namespace sinew::synthesis {
 algorithm::BlockSpec joint_quantity(std::string_view slot, const RobotJoint& joint);
 
 // Makes the inputs: all positions, then velocities, accelerations and forces, each in the order of
-// the joints, whatever the order in the query. Gravity becomes a constant acceleration of the root.
-// Unknown or repeated drivers are reported.
+// the joints, whatever the order in the query; then external wrenches. Gravity becomes a constant
+// acceleration of the root, or the input "gravity". Unknown or repeated drivers are reported.
 void make_drivers(Context& context, Report& report);
 
 // The slots that drivers fill.
 std::vector<std::string> given_slots(const Query& query);
+
+// Whether gravity is an input.
+bool gravity_varies(const Query& query);
 
 }  // namespace sinew::synthesis

@@ -7,9 +7,12 @@ namespace sinew::synthesis {
 std::string canonical_text(const Query& query) {
   std::string text = query.name + " asks";
   for (const Asked& asked : query.asked)
-    text += fmt::format(" {}({};{})", asked.quantity, asked.of, asked.seen_by);
+    text += fmt::format(" {}({};{};{})", asked.quantity, asked.of, asked.seen_by,
+                        asked.with_respect_to);
   text += " given";
-  for (const Given& given : query.given) text += fmt::format(" {}({})", given.quantity, given.of);
+  for (const Given& given : query.given)
+    text += fmt::format(" {}({};{}{})", given.quantity, given.of, given.seen_by,
+                        given.varies ? " varies" : "");
   text += " base " + query.base + " tips";
   for (const std::string& tip : query.tips) text += " " + tip;
   if (query.gravity)
@@ -17,6 +20,8 @@ std::string canonical_text(const Query& query) {
                         (*query.gravity)[2]);
   if (query.floating) text += " floating";
   if (!query.regroup) text += " stated inertias";
+  if (query.forces == Forces::kApart) text += " forces apart";
+  if (query.frames == Frames::kStationary) text += " stationary frames";
   if (!query.sweeps.empty()) text += " sweeps " + query.sweeps;
   return text;
 }

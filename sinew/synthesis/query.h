@@ -18,15 +18,41 @@ inline constexpr std::string_view kQueryNamespace = "https://w3id.org/sinew/quer
 inline constexpr std::string_view kEveryJoint = "every-joint";
 inline constexpr std::string_view kEveryTip = "every-tip";  // the query's tips, or every leaf
 
+// These stand for one frame, in `seen_by`.
+inline constexpr std::string_view kItself = "itself";  // the frame that is asked for, or given
+inline constexpr std::string_view kBase = "base";
+
 struct Asked {
   std::string quantity;  // a row of asked.cpp: "pose", "joint-force", "mass-matrix", ...
   std::string of;        // frame, joint or link; kEveryTip, kEveryJoint; empty for the whole robot
-  std::string seen_by;   // of motions of frames: "base" (the default), or "itself" for the frame
+  // Of motions of frames: the frame whose axes give the directions; kBase, kItself. Empty: the
+  // frame that the motion is with respect to.
+  std::string seen_by;
+  std::string with_respect_to = {};  // of poses and motions of frames; empty: the base
+
+  bool operator==(const Asked&) const = default;
 };
 
 struct Given {
   std::string quantity;  // a row of asked.cpp: "joint-position", "gravity", "external-wrench", ...
   std::string of;        // as above
+  // Of wrenches: kItself (also when it is empty) or kBase. They are always about the origin of the
+  // frame on which they act.
+  std::string seen_by = {};
+  bool varies = false;  // of gravity: an input of each call instead of a constant
+
+  bool operator==(const Given&) const = default;
+};
+
+// How the effects of several drivers become one.
+enum class Forces {
+  kTogether,  // added up as early as can be, which is cheapest
+  kApart,     // each external wrench's share of each joint's force stays to be seen
+};
+// What an acceleration twist is the derivative of, for the frame that it is of.
+enum class Frames {
+  kMoving,      // of the velocity of its origin, which moves with the body: classical
+  kStationary,  // of the velocity of the body at the point in space where its origin is: spatial
 };
 
 struct Query {
@@ -41,6 +67,8 @@ struct Query {
   bool floating = false;  // the base moves freely: its pose, twist and acceleration come first
   // Inertias may be regrouped for speed, where nothing that is asked could tell (regroup.h).
   bool regroup = true;
+  Forces forces = Forces::kTogether;
+  Frames frames = Frames::kMoving;
   std::string sweeps;  // name of a hand-written sweep configuration; empty: planned
 };
 

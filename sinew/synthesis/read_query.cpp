@@ -19,6 +19,9 @@ namespace {
 using algorithm::short_name;
 using graph::Id;
 
+// What a query names in a word lies here until the model says which element it is.
+constexpr std::string_view kNameNamespace = "https://w3id.org/sinew/name#";
+
 // A JSON-LD text in a graph of its own.
 struct Document {
   graph::Store store;
@@ -102,12 +105,24 @@ class Reader {
     return items;
   }
 
-  // An element's name: one of the words that stand for several, or an IRI.
-  std::string element(Id subject) {
-    const std::string name = text(subject, "of");
-    for (const std::string_view several : {kEveryJoint, kEveryTip})
-      if (name == std::string(kQueryNamespace) + std::string(several)) return std::string(several);
+  // An element: one of the words that stand for several or for a frame, a name, or an IRI.
+  std::string element(Id subject, std::string_view property) {
+    return element_of(text(subject, property));
+  }
+
+  static std::string element_of(std::string name) {
+    for (const std::string_view space : {kQueryNamespace, kNameNamespace})
+      if (name.starts_with(space)) return name.substr(space.size());
     return name;
+  }
+
+  // One of two words; the first when nothing is stated.
+  bool is_second(Id subject, std::string_view property, std::string_view first,
+                 std::string_view second) {
+    const std::string word = element(subject, property);
+    if (!word.empty() && word != first && word != second)
+      error(subject, property, "has an unknown value of", fmt::format("{} or {}", first, second));
+    return word == second;
   }
 
   void error(Id node, std::string_view property, std::string_view what, std::string remedy) {
@@ -172,13 +187,22 @@ Query read_query(const graph::View& view, Id node, const graph::Places* places, 
   query.name = reader.text(node, "name");
   if (query.name.empty()) query.name = short_name(view.terms().text(node));
   for (const Id asked : reader.list(node, "asks"))
-    query.asked.push_back({reader.required_text(asked, "quantity"), reader.element(asked), ""});
+    query.asked.push_back({reader.required_text(asked, "quantity"), reader.element(asked, "of"),
+                           reader.element(asked, "seen-by"),
+                           reader.element(asked, "with-respect-to")});
   for (const Id given : reader.objects(node, "gives"))
-    query.given.push_back({reader.required_text(given, "quantity"), reader.element(given)});
-  query.base = reader.text(node, "base");
-  for (const Id tip : reader.list(node, "tips")) query.tips.emplace_back(view.terms().text(tip));
+    query.given.push_back({reader.required_text(given, "quantity"), reader.element(given, "of"),
+                           reader.element(given, "seen-by"),
+                           reader.text(given, "varies") == "true"});
+  query.base = reader.element(node, "base");
+  for (const Id tip : reader.list(node, "tips"))
+    query.tips.push_back(Reader::element_of(std::string(view.terms().text(tip))));
   read_gravity(reader, node, query);
   query.floating = reader.text(node, "floating") == "true";
+  query.forces =
+      reader.is_second(node, "forces", "together", "apart") ? Forces::kApart : Forces::kTogether;
+  query.frames = reader.is_second(node, "frames", "moving", "stationary") ? Frames::kStationary
+                                                                          : Frames::kMoving;
   query.sweeps = reader.text(node, "sweeps");
   if (query.asked.empty())
     reader.error(node, "asks", "asks for nothing: it lacks", "list what is asked");

@@ -15,6 +15,7 @@ Step joint_velocity_step();
 Step velocity_step();
 
 // steps_acceleration.cpp
+Step gravity_step();
 Step joint_acceleration_step();
 Step acceleration_step(Motion motion);
 
@@ -23,6 +24,14 @@ Step inertia_step();
 Step own_wrench_step(Motion motion);
 Step wrench_step(Motion motion);
 Step joint_force_step(Motion motion);
+
+// steps_external_wrench.cpp
+Step external_wrench_step();
+Step external_wrench_from_base_step();
+Step force_share_step();
+
+// steps_joint_wrench.cpp
+Step joint_wrench_step();
 
 // steps_frames.cpp: of the frames that are asked for
 Step frame_pose_step();

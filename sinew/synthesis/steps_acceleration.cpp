@@ -132,7 +132,25 @@ void compute_body(Motion motion, Context& context, const Visit& visit) {
       edge.child);
 }
 
+void compute_gravity(Context& context, const Visit& visit) {
+  context.closure(
+      "base-acceleration-from-gravity",
+      {context.block("gravity", visit.node), context.block("base-acceleration", visit.node)},
+      visit.node);
+}
+
 }  // namespace
+
+Step gravity_step() {
+  return {.name = "gravity",
+          .purpose = "seen from what falls freely, the base accelerates against gravity",
+          .direction = Direction::kOutward,
+          .expansion = std::string(kAcrossJoints),
+          .needs = {"gravity"},
+          .may_use = {},
+          .gives = {"base-acceleration"},
+          .visitors = {{Where::kNode, {std::string(kIsRoot)}, {}, {}, compute_gravity}}};
+}
 
 Step joint_acceleration_step() {
   return {.name = "joint-acceleration",

@@ -2,6 +2,7 @@
 // share of each sum that acts along the joint.
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/motion.h"
+#include "sinew/synthesis/needed_wrench.h"
 #include "sinew/synthesis/step_list.h"
 
 namespace sinew::synthesis {
@@ -34,9 +35,18 @@ algorithm::BlockSpec wrench(std::string_view slot, Id represents, Id of, Id fram
           .seen_by = frame};
 }
 
+// Whether wrenches from outside already help to move the body here.
+bool helped(Motion motion, const Context& context, Id frame) {
+  if (motion == Motion::kRest || !context.has("external-wrench", frame)) return false;
+  return motion == Motion::kBias || context.query.forces == Forces::kTogether;
+}
+
 // A body without inertia needs none.
 void configure_own(Motion motion, Context& context, const Visit& visit) {
-  const std::string slot = slot_of(motion, "own-wrench");
+  const bool with_help = helped(motion, context, visit.node);
+  if (with_help)
+    context.make(wrench(slot_of(motion, "own-wrench"), visit.node, visit["body"], visit.node));
+  const std::string slot = slot_of(motion, with_help ? "inertial-wrench" : "own-wrench");
   algorithm::BlockSpec spec = wrench(slot, visit.node, visit["body"], visit.node);
   if (!context.has("inertia", visit["body"])) {
     spec.role = Role::kConstant;
@@ -45,24 +55,38 @@ void configure_own(Motion motion, Context& context, const Visit& visit) {
   context.make(spec);
 }
 
-void compute_own(Motion motion, Context& context, const Visit& visit) {
+void compute_inertial(Motion motion, Context& context, const Visit& visit, BlockIndex wrench) {
   if (!context.has("inertia", visit["body"])) return;
   const BlockIndex inertia = context.block("inertia", visit["body"]);
   const BlockIndex acceleration = context.block(slot_of(motion, "body-acceleration"), visit.node);
-  const BlockIndex own = context.block(slot_of(motion, "own-wrench"), visit.node);
   if (motion == Motion::kRest)
-    context.closure("acceleration-twist-to-wrench", {inertia, acceleration, own}, visit["body"]);
+    context.closure("acceleration-twist-to-wrench", {inertia, acceleration, wrench}, visit["body"]);
   else
     context.closure("newton-euler-wrench",
-                    {inertia, context.block("body-twist", visit.node), acceleration, own},
+                    {inertia, context.block("body-twist", visit.node), acceleration, wrench},
                     visit["body"]);
 }
 
-// What a body needs so far: its own wrench, and those handed on by the successors seen until now.
-BlockIndex sum_so_far(Motion motion, const Context& context, Id frame) {
+void compute_own(Motion motion, Context& context, const Visit& visit) {
+  const BlockIndex own = context.block(slot_of(motion, "own-wrench"), visit.node);
+  if (!helped(motion, context, visit.node)) {
+    compute_inertial(motion, context, visit, own);
+    return;
+  }
+  const BlockIndex inertial = context.block(slot_of(motion, "inertial-wrench"), visit.node);
+  compute_inertial(motion, context, visit, inertial);
+  context.closure("subtract-wrench", {inertial, context.block("external-wrench", visit.node), own},
+                  visit["body"]);
+}
+
+}  // namespace
+
+BlockIndex needed_wrench_so_far(Motion motion, const Context& context, Id frame) {
   const BlockIndex sum = context.board.find(slot_of(motion, "body-wrench"), frame);
   return sum != kNoIndex ? sum : context.block(slot_of(motion, "own-wrench"), frame);
 }
+
+namespace {
 
 void configure_sum(Motion motion, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
@@ -72,7 +96,7 @@ void configure_sum(Motion motion, Context& context, const Visit& visit) {
   make("wrench-at-joint", edge.successor, edge.joint_frame);
   make("wrench-at-predecessor", edge.successor, edge.parent);
   context.board.put(slot_of(motion, "wrench-before"), edge.joint,
-                    sum_so_far(motion, context, edge.parent));
+                    needed_wrench_so_far(motion, context, edge.parent));
   context.board.put(slot_of(motion, "body-wrench"), edge.parent,
                     make("wrench-with", edge.predecessor, edge.parent));
 }
@@ -84,7 +108,7 @@ void compute_sum(Motion motion, Context& context, const Visit& visit) {
   };
   context.closure("transform-wrench-to-proximal",
                   {context.block("pose-across-joint", edge.joint),
-                   sum_so_far(motion, context, edge.child), block("wrench-at-joint")},
+                   needed_wrench_so_far(motion, context, edge.child), block("wrench-at-joint")},
                   edge.joint);
   context.closure("transform-wrench-to-proximal",
                   {context.block("placement", edge.joint), block("wrench-at-joint"),
@@ -95,18 +119,43 @@ void compute_sum(Motion motion, Context& context, const Visit& visit) {
                   edge.joint);
 }
 
+// Where forces are kept apart: the wrenches that act behind this joint.
+std::vector<Id> shares(Motion motion, Context& context, const JointEdge& edge) {
+  std::vector<Id> pairs;
+  if (motion != Motion::kFull || context.query.forces == Forces::kTogether) return pairs;
+  for (const ExternalWrench& one : context.wrenches) {
+    const Id pair = context.pair(edge.joint, one.frame);
+    if (context.has("force-share", pair)) pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+// Without the shares of wrenches, then with one more each time; the last sum is the joint's force.
 void configure_force(Motion motion, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
-  const std::string slot = slot_of(motion, "force");
-  context.make(edge.coordinate(slot, "force"));
+  const std::vector<Id> pairs = shares(motion, context, edge);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    algorithm::BlockSpec spec = edge.coordinate("force-so-far", "force");
+    if (i > 0) spec.represents = pairs[i];
+    context.make(spec);
+  }
+  context.make(edge.coordinate(slot_of(motion, "force"), "force"));
 }
 
 void compute_force(Motion motion, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
+  const std::vector<Id> pairs = shares(motion, context, edge);
+  const BlockIndex force = context.block(slot_of(motion, "force"), edge.joint);
+  BlockIndex sum = pairs.empty() ? force : context.block("force-so-far", edge.joint);
   context.closure("force-from-wrench-" + edge.kind,
-                  {sum_so_far(motion, context, edge.child),
-                   context.block(slot_of(motion, "force"), edge.joint)},
-                  edge.joint);
+                  {needed_wrench_so_far(motion, context, edge.child), sum}, edge.joint);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const BlockIndex next =
+        i + 1 < pairs.size() ? context.block("force-so-far", pairs[i + 1]) : force;
+    context.closure(edge.floats() ? "add-floating-force" : "add-joint-force",
+                    {sum, context.block("force-share", pairs[i]), next}, edge.joint);
+    sum = next;
+  }
 }
 
 }  // namespace
@@ -130,7 +179,7 @@ Step own_wrench_step(Motion motion) {
           .direction = Direction::kLocal,
           .expansion = std::string(kAcrossJoints),
           .needs = needs,
-          .may_use = {},
+          .may_use = {"external-wrench", "external-wrench-from-base"},
           .gives = {slot_of(motion, "own-wrench")},
           .visitors = {{Where::kNode,
                         {std::string(kIsNotRoot)},
@@ -160,7 +209,7 @@ Step joint_force_step(Motion motion) {
           .direction = Direction::kInward,
           .expansion = std::string(kAcrossJoints),
           .needs = {slot_of(motion, "body-wrench")},
-          .may_use = {},
+          .may_use = {"force-share"},
           .gives = {slot_of(motion, "force")},
           .visitors = {{Where::kEdge,
                         {},

@@ -69,6 +69,11 @@ algorithm::BlockSpec motion(const MotionOfFrame& row, std::string_view slot, Id 
           .seen_by = seen_by};
 }
 
+// Whether the observer's motion follows from an input.
+bool falls_as_given(const MotionOfFrame& row, const Context& context) {
+  return row.quantity == kAcceleration.quantity && context.has("gravity", context.robot.root_frame);
+}
+
 // From a frame's motion in its own directions to the same in the root's; and, where the observer
 // falls freely, to the motion with respect to the root.
 void configure_output(const MotionOfFrame& row, Context& context, Id frame, Id body) {
@@ -84,8 +89,10 @@ void configure_output(const MotionOfFrame& row, Context& context, Id frame, Id b
     for (std::size_t i = 0; i < 3; ++i) value[3 + i] = context.gravity[i];
   algorithm::BlockSpec observer =
       motion(row, row.of_observer, frame, context.reference, root_body, root);
-  observer.role = Role::kConstant;
-  observer.value = value;
+  if (!falls_as_given(row, context)) {
+    observer.role = Role::kConstant;
+    observer.value = value;
+  }
   context.make(observer);
   context.make(motion(row, row.output, frame, body, root_body, root));
 }
@@ -100,6 +107,11 @@ void compute_output(const MotionOfFrame& row, Context& context, Id frame) {
   }
   const BlockIndex from_observer = context.block(row.from_observer, frame);
   context.closure(row.rotate, {pose, own, from_observer}, frame);
+  if (falls_as_given(row, context))
+    context.closure("free-fall-from-gravity",
+                    {pose, context.block("gravity", context.robot.root_frame),
+                     context.block(row.of_observer, frame)},
+                    frame);
   context.closure(row.add, {context.block(row.of_observer, frame), from_observer, output}, frame);
 }
 

@@ -9,6 +9,7 @@
 #include "sinew/synthesis/asked.h"
 #include "sinew/synthesis/context.h"
 #include "sinew/synthesis/drivers.h"
+#include "sinew/synthesis/external_wrenches.h"
 #include "sinew/synthesis/floating_base.h"
 #include "sinew/synthesis/plan.h"
 #include "sinew/synthesis/read_query.h"
@@ -80,8 +81,28 @@ std::vector<Id> elements(graph::Store& store, const graph::View& view, const Rob
   return found;
 }
 
+// The joints that each external wrench reaches, each with that wrench.
+std::vector<Id> shares(graph::Store& store, const graph::View& view, const Robot& robot,
+                       const Query& query, std::span<const ExternalWrench> wrenches) {
+  if (query.forces == Forces::kTogether || wrenches.empty())
+    throw Error(Problem{{},
+                        query.name,
+                        wrenches.empty() ? "shares of joint forces, but there is no external wrench"
+                                         : "shares of joint forces, but forces are added up early",
+                        wrenches.empty() ? "give an external-wrench" : "let forces be kept apart",
+                        {},
+                        {}});
+  std::vector<Id> pairs;
+  for (const RobotJoint& joint : robot.joints)
+    for (const ExternalWrench& one : wrenches)
+      for (const std::size_t on_the_way : path_to(robot, view, one.frame))
+        if (robot.joints[on_the_way].joint == joint.joint)
+          pairs.push_back(pair_of(store.terms(), joint.joint, one.frame));
+  return pairs;
+}
+
 Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robot,
-                 const Query& query, Report& report) {
+                 const Query& query, std::span<const ExternalWrench> wrenches, Report& report) {
   Resolved resolved;
   if (query.asked.empty())
     report.error({}, query.name, "the query asks for nothing", "state what is asked");
@@ -99,7 +120,9 @@ Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robo
     resolved.regroups &= row->regroups;
     resolved.wishes.push_back({std::string(row->needs), asked.quantity});
     try {
-      for (const Id element : elements(store, view, robot, query, asked, row->element))
+      for (const Id element : row->name == "joint-force-share"
+                                  ? shares(store, view, robot, query, wrenches)
+                                  : elements(store, view, robot, query, asked, row->element))
         resolved.wanted.push_back({row, element});
     } catch (const Error& error) {
       for (const Problem& problem : error.problems()) report.add(problem);
@@ -130,6 +153,19 @@ std::array<double, 3> gravity(const Context& context, std::vector<std::string>& 
   }
   notes.push_back("no gravity in the model and none in the query: it is zero");
   return {0, 0, 0};
+}
+
+// Wrenches, and gravity that varies, have their effect although nobody asks for it.
+void wish_for_drivers(std::span<const ExternalWrench> wrenches, const Query& query,
+                      Resolved& resolved) {
+  if (gravity_varies(query)) resolved.wishes.push_back({"base-acceleration", "gravity"});
+  if (!resolved.dynamic || wrenches.empty()) return;
+  const bool from_base = std::any_of(wrenches.begin(), wrenches.end(),
+                                     [](const auto& one) { return one.seen_from_base; });
+  resolved.wishes.push_back(
+      {from_base ? "external-wrench-from-base" : "external-wrench", "external wrenches"});
+  if (query.forces == Forces::kApart)
+    resolved.wishes.push_back({"force-share", "external wrenches, kept apart"});
 }
 
 // What the expansion queries and conditions see of the question.
@@ -206,7 +242,9 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
   }
 
   Report report;
-  const Resolved resolved = resolve(store, view, robot, query, report);
+  const std::vector<ExternalWrench> wrenches = external_wrenches(store, view, robot, query, report);
+  Resolved resolved = resolve(store, view, robot, query, wrenches, report);
+  wish_for_drivers(wrenches, query, resolved);
   const std::vector<std::string> given = given_slots(query);
   const Plan plan = plan_of(query, resolved, given, report);
   report.throw_if_errors();
@@ -217,7 +255,9 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
                                    {robot.root_frame, terms.literal(canonical_text(query))});
   transaction.clear(result.algorithm);
   algorithm::Builder builder(store, transaction, result.algorithm);
-  const bool falls = std::find(given.begin(), given.end(), "base-acceleration") != given.end();
+  const bool falls = std::any_of(given.begin(), given.end(), [](const std::string& slot) {
+    return slot == "base-acceleration" || slot == "gravity";
+  });
   Context context{
       .store = store,
       .view = view,
@@ -228,7 +268,8 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
           falls ? terms.derived(terms.iri(std::string(algorithm::kTreeNamespace) + "FreeFall"),
                                 {robot.root_body})
                 : robot.root_body};
-  if (falls) context.gravity = gravity(context, result.notes);
+  context.wrenches = wrenches;
+  if (falls && !gravity_varies(query)) context.gravity = gravity(context, result.notes);
   context.inertias = stated_inertias(context);
   if (query.regroup && resolved.regroups) regroup(context, context.inertias);
   write_asks(store, transaction, result.algorithm, resolved);

@@ -141,8 +141,8 @@ class DartPeer final : public Peer {
     set(state);
     skeleton_->setAccelerations(own(state.acceleration));
     BodyNode* body = body_of(link);
-    body->setExtTorque({wrench[0], wrench[1], wrench[2]}, true);
     body->setExtForce({wrench[3], wrench[4], wrench[5]}, Eigen::Vector3d::Zero(), true, true);
+    body->addExtTorque({wrench[0], wrench[1], wrench[2]}, true);
     skeleton_->computeInverseDynamics(true);
     const Vector force = ours(skeleton_->getForces());
     skeleton_->clearExternalForces();
@@ -153,6 +153,11 @@ class DartPeer final : public Peer {
                                  const std::string& link) override {
     set(state);
     skeleton_->setAccelerations(own(state.acceleration));
+    if (name == "joint-wrench") {
+      skeleton_->computeInverseDynamics();
+      auto* joint = skeleton_->getJoint(link);
+      return numbers((joint ? joint->getChildBodyNode() : body_of(link))->getBodyForce());
+    }
     if (!link.empty()) return of_link(name, *body_of(link));
     if (name == "center-of-mass") return numbers(skeleton_->getCOM());
     if (name == "center-of-mass-velocity") return numbers(skeleton_->getCOMLinearVelocity());
@@ -220,9 +225,6 @@ class DartPeer final : public Peer {
       both << body.getAngularAcceleration(), body.getLinearAcceleration();
     } else if (name == "jacobian-rate-times-velocity") {
       both = skeleton_->getJacobianClassicDeriv(&body) * skeleton_->getVelocities();
-    } else if (name == "joint-wrench") {
-      skeleton_->computeInverseDynamics();
-      both = body.getBodyForce();
     } else if (name == "jacobian") {
       return columns(skeleton_->getWorldJacobian(&body));
     } else {

@@ -192,6 +192,10 @@ class MujocoPeer final : public Peer {
     mju_zero(data_->xfrc_applied, 6 * model_->nbody);
     write_acceleration(state, state.acceleration);
     mj_inverse(model_, data_);
+    if (name == "joint-wrench") {
+      const int joint = mj_name2id(model_, mjOBJ_JOINT, link.c_str());
+      return joint_wrench(joint < 0 ? body_of(link) : model_->jnt_bodyid[joint]);
+    }
     if (!link.empty()) return of_link(name, body_of(link));
     mj_subtreeVel(model_, data_);
     if (name == "center-of-mass") return Vector(data_->subtree_com, data_->subtree_com + 3);
@@ -305,19 +309,22 @@ class MujocoPeer final : public Peer {
       for (int i = 0; i < 3; ++i) both[static_cast<std::size_t>(3 + i)] += model_->opt.gravity[i];
       return both;
     }
-    if (name == "joint-wrench") {
-      // MuJoCo's is about the centre of mass of the whole tree, with the world's directions.
-      const double* wrench = data_->cfrc_int + 6 * body;
-      const double* center = data_->subtree_com + 3 * model_->body_rootid[body];
-      Vector3 lever, moment;
-      mju_sub3(lever.data(), center, data_->xpos + 3 * body);
-      mju_cross(moment.data(), lever.data(), wrench + 3);
-      mju_addTo3(moment.data(), wrench);
-      mju_rotVecMatT(both.data(), moment.data(), data_->xmat + 9 * body);
-      mju_rotVecMatT(both.data() + 3, wrench + 3, data_->xmat + 9 * body);
-      return both;
-    }
     return std::nullopt;
+  }
+
+  // MuJoCo's is about the centre of mass of the whole tree, with the world's directions.
+  Vector joint_wrench(int body) {
+    mj_rnePostConstraint(model_, data_);
+    const double* wrench = data_->cfrc_int + 6 * body;
+    const double* center = data_->subtree_com + 3 * model_->body_rootid[body];
+    Vector3 lever, moment;
+    mju_sub3(lever.data(), center, data_->xpos + 3 * body);
+    mju_cross(moment.data(), lever.data(), wrench + 3);
+    mju_addTo3(moment.data(), wrench);
+    Vector both(6);
+    mju_rotVecMatT(both.data(), moment.data(), data_->xmat + 9 * body);
+    mju_rotVecMatT(both.data() + 3, wrench + 3, data_->xmat + 9 * body);
+    return both;
   }
 
   Vector3 to_body(const double* in_world) const {

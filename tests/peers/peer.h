@@ -44,8 +44,9 @@ class Peer {
   virtual Vector link_pose(const State& state, const std::string& link) = 0;
 
   // Whatever else a library may know, by the name that our queries have for it and in our layout:
-  // seen from the world, a link's about its own origin; "joint-wrench" is that of the joint before
-  // the link, seen from the link. Nothing where the library has no such quantity.
+  // seen from the world, a link's about its own origin. "joint-wrench" is of a joint (or of the
+  // link that floats), seen from the link behind it. Nothing where the library has no such
+  // quantity.
   virtual std::optional<Vector> quantity(const State& state, std::string_view name,
                                          const std::string& link = {}) {
     static_cast<void>(state), static_cast<void>(name), static_cast<void>(link);

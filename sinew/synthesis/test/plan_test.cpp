@@ -78,8 +78,8 @@ TEST(Plan, SaysWhyEachStepIsThere) {
 }
 
 TEST(Steps, HaveNamesOfTheirOwnAndAreListedAfterTheirGivers) {
-  std::set<std::string> names,
-      given = {"position", "velocity", "acceleration", "force", "base-acceleration"};
+  std::set<std::string> names, given = {"position", "velocity",          "acceleration", "force",
+                                        "gravity",  "base-acceleration", "wrench"};
   for (const Step& step : steps()) {
     EXPECT_TRUE(names.insert(step.name).second) << step.name;
     for (const std::string& need : step.needs)
