@@ -117,6 +117,10 @@ class alignas(64) Cell {
       values[i] = std::bit_cast<double>(from[i].load(std::memory_order_acquire));
     }
   }
+  // An entry where it lies: its stamp, then its numbers.
+  const std::atomic<std::uint64_t>* words(const View& view, std::uint64_t entry) const {
+    return view.ring->words() + (entry & mask_) * stride_;
+  }
   // The last entry with a stamp of at most `at`, among oldest .. count - 1; precondition: there is
   // one. A guess by the mean rate comes first, so evenly spaced entries are found at once.
   std::uint64_t find(const View& view, Stamp at) const;
@@ -150,9 +154,6 @@ class alignas(64) Cell {
   std::string claimed_by;
 
  private:
-  const std::atomic<std::uint64_t>* words(const View& view, std::uint64_t entry) const {
-    return view.ring->words() + (entry & mask_) * stride_;
-  }
   Ring* writable(Epoch epoch, Ring*& spare);
   void store(Ring& ring, std::uint64_t entry, Stamp stamp, const double* values);
 

@@ -37,14 +37,16 @@ class Writing {
   std::uint64_t sequence_;
 };
 
-// Takes the spare out of its place if the write needed it.
+// Takes a spare out of its place if the write needed it.
 struct Spare {
-  explicit Spare(WriterState::Target& of)
-      : target(of), ring(of.spare.load(std::memory_order_acquire)), before(ring) {}
-  ~Spare() {
-    if (ring != before) target.spare.store(nullptr, std::memory_order_release);
+  explicit Spare(WriterState::Target& target) : place(target.spares) {
+    if (!place->load(std::memory_order_acquire)) ++place;
+    ring = before = place->load(std::memory_order_acquire);
   }
-  WriterState::Target& target;
+  ~Spare() {
+    if (ring != before) place->store(nullptr, std::memory_order_release);
+  }
+  std::atomic<Ring*>* place;
   Ring* ring;
   Ring* before;
 };

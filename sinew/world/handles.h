@@ -24,7 +24,8 @@ struct WriterState {
   std::atomic<std::uint64_t> active = 0;  // odd while a write is under way
   struct Target {
     std::shared_ptr<Cell> cell;
-    std::atomic<Ring*> spare = nullptr;
+    // Two: while a write uses one up, `clone` may already count on the next write's.
+    std::atomic<Ring*> spares[2] = {nullptr, nullptr};
     bool is_pose = false;
   };
   std::vector<std::unique_ptr<Target>> targets;

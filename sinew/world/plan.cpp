@@ -176,6 +176,8 @@ struct Planner {
     } else if (candidate.prediction) {
       candidate.validity = candidate.prediction->horizon;
     }
+    candidate.is_timed = candidate.validity != kForever || candidate.expiry != Stamp::max() ||
+                         candidate.period != kForever;
     plan->keep.push_back(record.cell);
     plan->keep.push_back(record.model);
     plan->candidates.push_back(candidate);
@@ -219,6 +221,9 @@ struct Planner {
     step.first = static_cast<std::uint32_t>(plan->candidates.size());
     step.count = static_cast<std::uint32_t>(found.size());
     for (const Index measurement : found) add_candidate(measurement);
+    const Candidate& only = plan->candidates[step.first];
+    step.is_simple = !joint && step.count == 1 && !only.is_static && !only.prediction &&
+                     only.model->interpolation == Interpolation::kLinear;
     if (motion) {
       step.velocity =
           motion_candidate(relation, joint ? Quantity::kJointVelocity : Quantity::kTwist);

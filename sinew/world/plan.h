@@ -25,10 +25,14 @@ struct Candidate {
   MeasurementId measurement;
   Quantity quantity = Quantity::kPose;
   bool is_static = false;
+  bool is_timed = false;  // validity, expiry or period is declared
 };
 
 struct PlanStep {
   RelationKind kind = RelationKind::kFree;
+  // One measurement, a pose without a model, between whose entries is a line: the usual case, which
+  // is read without detours.
+  bool is_simple = false;
   bool inverse = false;                // walked from B to A
   bool has_before = false;             // `before` is not the identity
   bool freshest = false;               // choose among the candidates by stamp

@@ -2,59 +2,10 @@
 
 #include <cmath>
 
+#include "sinew/world/slerp.h"
+
 namespace sinew::world {
 namespace {
-
-// sin(share a) / sin(a) for cos(a) = c near 1, as a series in x = c - 1 (Eberly 2011, "A fast and
-// accurate algorithm for computing SLERP"): the product of factors (u_i share^2 - v_i) x, with
-// u_i = 1 / (i (2 i + 1)) and v_i = i / (2 i + 1). Its terms shrink like (-x / 2)^i.
-struct SeriesFactors {
-  double u, v;
-};
-constexpr SeriesFactors factors(int i) {
-  return {1.0 / (i * (2.0 * i + 1.0)), i / (2.0 * i + 1.0)};
-}
-constexpr SeriesFactors kSeries[] = {factors(1), factors(2), factors(3), factors(4),
-                                     factors(5), factors(6), factors(7), factors(8)};
-constexpr double kSeriesLimit = 0.01;  // 1 - c: 16 degrees of rotation; 8 terms leave out < 1e-18
-constexpr double kShortLimit = 1e-4;   // 4 terms are as good
-template <int kTerms>
-double sine_ratio(double share, double x) {
-  const double square = share * share;
-  double sum = 0;
-#pragma GCC unroll 8
-  for (int i = kTerms - 1; i >= 0; --i) {
-    sum = (kSeries[i].u * square - kSeries[i].v) * x * (1.0 + sum);
-  }
-  return share * (1.0 + sum);
-}
-
-Quaternion slerp(const Quaternion& a, Quaternion b, double share) {
-  double c = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
-  if (c < 0) {
-    c = -c;
-    b = {-b.x, -b.y, -b.z, -b.w};
-  }
-  double of_a = 0, of_b = 0;
-  if (1.0 - c < kShortLimit) {
-    of_a = sine_ratio<4>(1.0 - share, c - 1.0);
-    of_b = sine_ratio<4>(share, c - 1.0);
-  } else if (1.0 - c < kSeriesLimit) {
-    of_a = sine_ratio<8>(1.0 - share, c - 1.0);
-    of_b = sine_ratio<8>(share, c - 1.0);
-  } else {
-    // atan2 of the half sum and half difference loses nothing where c is near 1 or 0.
-    const Quaternion d = {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
-    const Quaternion s = {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
-    const double angle = 2.0 * std::atan2(std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z + d.w * d.w),
-                                          std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z + s.w * s.w));
-    const double sine = std::sin(angle);
-    of_a = std::sin((1.0 - share) * angle) / sine;
-    of_b = std::sin(share * angle) / sine;
-  }
-  return {of_a * a.x + of_b * b.x, of_a * a.y + of_b * b.y, of_a * a.z + of_b * b.z,
-          of_a * a.w + of_b * b.w};
-}
 
 // (1 - cos a) / a^2 and (a - sin a) / a^3, without cancellation where a is small.
 struct ScrewFactors {
@@ -71,6 +22,22 @@ ScrewFactors screw_factors(double angle) {
 }
 
 }  // namespace
+
+void wide_slerp_factors(const Quaternion& a, const Quaternion& b, double share, double& of_a,
+                        double& of_b) {
+  // atan2 of the half sum and half difference loses nothing where c is near 1 or 0.
+  const Quaternion d = {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
+  const Quaternion s = {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
+  const double angle = 2.0 * std::atan2(std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z + d.w * d.w),
+                                        std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z + s.w * s.w));
+  const double sine = std::sin(angle);
+  of_a = std::sin((1.0 - share) * angle) / sine;
+  of_b = std::sin(share * angle) / sine;
+}
+
+Pose slerp(const Pose& from, const Pose& to, double share) {
+  return slerp_in_line(from, to, share);
+}
 
 Pose revolute(double angle_rad) {
   return {{0, 0, std::sin(0.5 * angle_rad), std::cos(0.5 * angle_rad)}, {}};
@@ -117,10 +84,6 @@ bool normalise(Pose& pose) {
     x *= scale, y *= scale, z *= scale, w *= scale;
   }
   return true;
-}
-
-Pose slerp(const Pose& from, const Pose& to, double share) {
-  return {slerp(from.q, to.q, share), from.p + share * (to.p - from.p)};
 }
 
 Pose exponential(const Twist& V, double seconds) {

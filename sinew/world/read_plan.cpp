@@ -1,8 +1,54 @@
 // Reading a plan as a pose.
 #include "sinew/world/plan_reading.h"
+#include "sinew/world/slerp.h"
 
 namespace sinew::world {
 namespace {
+
+// The pose of a simple step; false when it needs the general way, for its status.
+template <When kWhen>
+[[gnu::always_inline]] inline bool read_simple(const Plan& plan, const PlanStep& step, Stamp time,
+                                               PlanReading& reading, Pose& X, Gathered& gathered) {
+  const Candidate& from = plan.candidates[step.first];
+  const Cell::View& view = reading.views[step.first];
+  if (view.count == 0) return false;
+  std::uint64_t entry = view.count - 1;
+  const auto* words = from.cell->words(view, entry);
+  Stamp stamp = load_stamp(words);
+  if constexpr (kWhen == When::kLatest) {
+    X = load_entry(words);
+  } else {
+    if (time > stamp) return false;
+    if (time == stamp) {
+      X = load_entry(words);
+    } else {
+      const std::uint64_t oldest = from.cell->oldest(view);
+      if (entry == oldest) return false;
+      // Most are asked for a time near the present.
+      const auto* after = words;
+      words = from.cell->words(view, --entry);
+      Stamp next = stamp;
+      stamp = load_stamp(words);
+      if (time < stamp) {
+        if (time < from.cell->stamp(view, oldest)) return false;
+        entry = from.cell->find(view, time);
+        words = from.cell->words(view, entry);
+        after = from.cell->words(view, entry + 1);
+        stamp = load_stamp(words);
+        next = load_stamp(after);
+      }
+      X = load_entry(words);
+      if (time != stamp) {
+        const double share = static_cast<double>((time - stamp).count()) /
+                             static_cast<double>((next - stamp).count());
+        X = slerp_in_line(X, load_entry(after), share);
+      }
+    }
+  }
+  reading.used[reading.uses++] = {step.first, entry};
+  gathered.add(from, stamp, time);
+  return true;
+}
 
 template <When kWhen>
 void compose_poses(const Plan& plan, Stamp time, PlanReading& reading, PoseAnswer& answer,
@@ -12,6 +58,11 @@ void compose_poses(const Plan& plan, Stamp time, PlanReading& reading, PoseAnswe
   double values[kMaximumValues];
   for (const PlanStep& step : plan.steps) {
     if (step.has_before) X = compose(X, step.before);
+    Pose own;
+    if (step.is_simple && read_simple<kWhen>(plan, step, time, reading, own, gathered)) [[likely]] {
+      X = step.inverse ? compose_inverse(X, own) : compose(X, own);
+      continue;
+    }
     answer.status = read_step<kWhen>(plan, step, time, reading, values, gathered, answer.bounds);
     if (answer.status != Status::kOk) [[unlikely]]
       return;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 
 #include "sinew/world/plan.h"
 
@@ -16,11 +18,12 @@ struct Gathered {
   std::uint32_t used = 0, expired = 0;
   bool predicted = false;
 
-  void add(const Candidate& from, Stamp stamp, Stamp now) {
+  [[gnu::always_inline]] void add(const Candidate& from, Stamp stamp, Stamp now) {
     ++used;
     if (from.is_static) return;
     oldest = std::min(oldest, stamp);
     newest = std::max(newest, stamp);
+    if (!from.is_timed) return;
     Stamp until = from.expiry;
     if (from.validity != kForever) until = std::min(until, stamp + from.validity);
     expires = std::min(expires, until);
@@ -62,6 +65,17 @@ void interpolate(Interpolation how, Quantity quantity, std::uint32_t size, const
                  const double* to, double share, double* values);
 
 Bounds bounds_of(const Candidate& from, const Cell::View& view);
+
+// A pose's numbers, and the stamp before them, straight from a ring.
+inline Pose load_entry(const std::atomic<std::uint64_t>* words) {
+  const auto number = [words](int i) {
+    return std::bit_cast<double>(words[i].load(std::memory_order_acquire));
+  };
+  return {{number(1), number(2), number(3), number(4)}, {number(5), number(6), number(7)}};
+}
+inline Stamp load_stamp(const std::atomic<std::uint64_t>* words) {
+  return stamp_of_ns(static_cast<std::int64_t>(words[0].load(std::memory_order_acquire)));
+}
 
 inline Pose load_pose(const double* at) {
   return {{at[0], at[1], at[2], at[3]}, {at[4], at[5], at[6]}};

@@ -236,7 +236,9 @@ std::unique_ptr<WriterState> claim_cells(WorldImpl& world,
     auto target = std::make_unique<WriterState::Target>();
     target->cell = world.state.measurements[measurement.index].cell;
     target->is_pose = record.quantity == Quantity::kPose;
-    target->spare.store(cell.spare(world.family->oldest_seen(world.token)));
+    for (auto& spare : target->spares) {
+      spare.store(cell.spare(world.family->oldest_seen(world.token)));
+    }
     state->targets.push_back(std::move(target));
   }
   for (const auto& target : state->targets) {
@@ -296,13 +298,17 @@ World World::clone() const {
            "a clone of a clone, " + std::to_string(kMaximumCloneDepth) + " times over",
            "clone an earlier one");
   }
-  // Each handle has a spare for its first write after this.
+  // Each handle has a spare for its first write after this. One that a write is using up just now
+  // is not counted on: there are two, and it is replaced by the next clone, which begins after that
+  // write.
   if (!original.writers.empty()) {
     const Epoch needed = original.family->oldest_seen(original.token);
     for (WriterState* const writer : original.writers) {
       for (const auto& target : writer->targets) {
-        if (!target->spare.load(std::memory_order_acquire)) {
-          target->spare.store(target->cell->spare(needed), std::memory_order_release);
+        for (auto& spare : target->spares) {
+          if (!spare.load(std::memory_order_acquire)) {
+            spare.store(target->cell->spare(needed), std::memory_order_release);
+          }
         }
       }
     }

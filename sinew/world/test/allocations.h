@@ -1,0 +1,10 @@
+// How often the calling thread has asked for memory with new.
+#pragma once
+
+#include <cstddef>
+
+namespace sinew::world {
+
+std::size_t allocations();
+
+}  // namespace sinew::world
