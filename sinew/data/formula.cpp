@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "sinew/data/scanner.h"
 #include "sinew/data/spelling.h"
@@ -16,14 +17,37 @@ namespace {
 using Op = ScalarOperation;
 using Node = ScalarGraph::Node;
 
+// What an expression is worth: a node of the graph, its dimension (nothing: fits every other), and
+// the words that say it.
+struct Value {
+  Node node = 0;
+  std::optional<Dimension> dimension;
+  std::size_t from = 0, to = 0;
+};
+
+Dimension without_angle(Dimension dimension) {
+  dimension.exponents[std::size_t(BaseQuantity::kAngle)] = 0;
+  return dimension;
+}
+
+std::string name_of(const Dimension& dimension) {
+  return dimension.dimensionless() ? "none" : to_string(dimension);
+}
+
+std::optional<Dimension> without_angle(const std::optional<Dimension>& dimension) {
+  return dimension ? std::optional(without_angle(*dimension)) : std::nullopt;
+}
+
 class Parser {
  public:
-  Parser(Scanner& scanner, std::span<const std::string> inputs,
-         std::span<const std::string> outputs)
-      : scanner_(scanner), output_names_(outputs) {
+  Parser(Scanner& scanner, std::span<const FormulaParameter> inputs,
+         std::span<const FormulaParameter> outputs)
+      : scanner_(scanner), outputs_(outputs) {
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-      names_[inputs[i]] = formula_.graph.input(static_cast<std::uint32_t>(i));
+      names_[inputs[i].name] = {formula_.graph.input(static_cast<std::uint32_t>(i)),
+                                without_angle(inputs[i].dimension), 0, 0};
     }
+    for (const FormulaParameter& output : outputs) output_names_.push_back(output.name);
     results_.resize(outputs.size());
   }
 
@@ -33,7 +57,7 @@ class Parser {
       const Place place = scanner_.place();
       const std::string name = dotted_name();
       scanner_.expect("=");
-      const Node value = expression(0);
+      const Value value = expression(0);
       if (local) {
         if (!names_.emplace(name, value).second) {
           fail(place, fmt::format("'{}' has a value already", name), "choose another name");
@@ -58,11 +82,18 @@ class Parser {
     throw Error(Problem{place, {}, std::move(what), std::move(remedy), Severity::kError, {}});
   }
 
-  void give_output(const Place& place, const std::string& name, Node value) {
+  void give_output(const Place& place, const std::string& name, const Value& value) {
     for (std::size_t i = 0; i < output_names_.size(); ++i) {
       if (output_names_[i] != name) continue;
       if (results_[i]) fail(place, fmt::format("'{}' is given twice", name), "leave one out");
-      results_[i] = value;
+      const auto wanted = without_angle(outputs_[i].dimension);
+      if (wanted && value.dimension && *wanted != *value.dimension) {
+        fail(place,
+             fmt::format("'{}' has the dimension {}, but '{}' has {}", name, name_of(*wanted),
+                         text(value), name_of(*value.dimension)),
+             "both sides have the same dimension");
+      }
+      results_[i] = value.node;
       return;
     }
     fail(place, fmt::format("'{}' is no parameter of the result", name),
@@ -77,13 +108,111 @@ class Parser {
     return name;
   }
 
-  Node expression(std::size_t depth) {
-    Node left = sum(depth);
-    if (scanner_.take("<")) return formula_.graph.apply(Op::kLess, left, sum(depth));
-    if (scanner_.take(">")) return formula_.graph.apply(Op::kLess, sum(depth), left);
+  // ---- dimensions ----
+
+  std::string text(const Value& value) const { return scanner_.words(value.from, value.to); }
+
+  // The dimension of two values that have to have the same one.
+  std::optional<Dimension> common(const Place& place, const Value& a, const Value& b,
+                                  std::string_view why) const {
+    if (a.dimension && b.dimension && *a.dimension != *b.dimension) {
+      fail(place,
+           fmt::format("'{}' has the dimension {}, but '{}' has {}", text(a), name_of(*a.dimension),
+                       text(b), name_of(*b.dimension)),
+           std::string(why));
+    }
+    return a.dimension ? a.dimension : b.dimension;
+  }
+
+  void require_number(const Place& place, const Value& value, std::string_view function) const {
+    if (!value.dimension || value.dimension->dimensionless()) return;
+    fail(place,
+         fmt::format("'{}' has the dimension {}, but {} takes {}", text(value),
+                     name_of(*value.dimension), function,
+                     function.starts_with('a') ? "a pure number" : "an angle"),
+         "divide by something of the same dimension");
+  }
+
+  std::optional<Dimension> product_dimension(const Place& place, const Value& a, const Value& b,
+                                             int sign) const {
+    if (!a.dimension || !b.dimension) return std::nullopt;
+    Dimension result;
+    for (std::size_t i = 0; i < kBaseQuantities; ++i) {
+      const int exponent = a.dimension->exponents[i] + sign * b.dimension->exponents[i];
+      if (exponent > kMaximumFormulaExponent || exponent < -kMaximumFormulaExponent) {
+        fail(place, fmt::format("a dimension's exponent is {}", exponent),
+             fmt::format("exponents go to {}", kMaximumFormulaExponent));
+      }
+      result.exponents[i] = static_cast<std::int8_t>(exponent);
+    }
+    return result;
+  }
+
+  std::optional<Dimension> root_dimension(const Place& place, const Value& value) const {
+    if (!value.dimension) return std::nullopt;
+    Dimension result = *value.dimension;
+    for (auto& exponent : result.exponents) {
+      if (exponent % 2 != 0) {
+        fail(place,
+             fmt::format("'{}' has the dimension {}, which has no square root", text(value),
+                         name_of(*value.dimension)),
+             "take the root of a product");
+      }
+      exponent = static_cast<std::int8_t>(exponent / 2);
+    }
+    return result;
+  }
+
+  std::optional<Dimension> result_dimension(const Place& place, Op operation,
+                                            const Value (&operands)[3]) const {
+    const auto& [a, b, c] = operands;
+    switch (operation) {
+      case Op::kSine:
+      case Op::kCosine:
+      case Op::kTangent:
+      case Op::kArcSine:
+      case Op::kArcCosine:
+        require_number(place, a, row(operation).name);
+        return Dimension{};
+      case Op::kSquareRoot:
+        return root_dimension(place, a);
+      case Op::kArcTangent2:
+        common(place, a, b, "atan2 takes two of the same dimension");
+        return Dimension{};
+      case Op::kHypotenuse:
+      case Op::kMinimum:
+      case Op::kMaximum:
+        return common(place, a, b,
+                      fmt::format("{} takes two of the same dimension", row(operation).name));
+      case Op::kSelect:
+        return common(place, b, c, "select chooses between two of the same dimension");
+      default:
+        return a.dimension;
+    }
+  }
+
+  // ---- expressions ----
+
+  Value value_of(Node node, std::optional<Dimension> dimension, std::size_t from) const {
+    return {node, dimension, from, scanner_.position()};
+  }
+
+  Value expression(std::size_t depth) {
+    const std::size_t from = scanner_.position();
+    const Value left = sum(depth);
     // a <= b is not (b < a); for numbers that are no NaN it is.
-    if (scanner_.take("<=")) return negated(formula_.graph.apply(Op::kLess, sum(depth), left));
-    if (scanner_.take(">=")) return negated(formula_.graph.apply(Op::kLess, left, sum(depth)));
+    for (const auto& [mark, turned, negate] :
+         {std::tuple("<", false, false), std::tuple(">", true, false), std::tuple("<=", true, true),
+          std::tuple(">=", false, true)}) {
+      const Place place = scanner_.place();
+      if (!scanner_.take(mark)) continue;
+      const Value right = sum(depth);
+      common(place, left, right, "only what has the same dimension can be compared");
+      Node node = formula_.graph.apply(Op::kLess, turned ? right.node : left.node,
+                                       turned ? left.node : right.node);
+      if (negate) node = negated(node);
+      return value_of(node, Dimension{}, from);
+    }
     return left;
   }
 
@@ -92,67 +221,79 @@ class Parser {
                                 formula_.graph.constant(1));
   }
 
-  Node sum(std::size_t depth) {
-    Node left = product(depth);
+  Value sum(std::size_t depth) {
+    const std::size_t from = scanner_.position();
+    Value left = product(depth);
     while (true) {
-      if (scanner_.take("+")) {
-        left = formula_.graph.apply(Op::kAdd, left, product(depth));
-      } else if (scanner_.take("-")) {
-        left = formula_.graph.apply(Op::kSubtract, left, product(depth));
-      } else {
-        return left;
-      }
+      const Place place = scanner_.place();
+      const bool plus = scanner_.take("+");
+      if (!plus && !scanner_.take("-")) return left;
+      const Value right = product(depth);
+      const auto dimension = common(place, left, right,
+                                    plus ? "only what has the same dimension can be added"
+                                         : "only what has the same dimension can be subtracted");
+      left = value_of(formula_.graph.apply(plus ? Op::kAdd : Op::kSubtract, left.node, right.node),
+                      dimension, from);
     }
   }
 
-  Node product(std::size_t depth) {
-    Node left = factor(depth);
+  Value product(std::size_t depth) {
+    const std::size_t from = scanner_.position();
+    Value left = factor(depth);
     while (true) {
-      if (scanner_.take("*")) {
-        left = formula_.graph.apply(Op::kMultiply, left, factor(depth));
-      } else if (scanner_.take("/")) {
-        left = formula_.graph.apply(Op::kDivide, left, factor(depth));
-      } else {
-        return left;
-      }
+      const Place place = scanner_.place();
+      const bool times = scanner_.take("*");
+      if (!times && !scanner_.take("/")) return left;
+      const Value right = factor(depth);
+      left =
+          value_of(formula_.graph.apply(times ? Op::kMultiply : Op::kDivide, left.node, right.node),
+                   product_dimension(place, left, right, times ? 1 : -1), from);
     }
   }
 
-  Node factor(std::size_t depth) {
+  Value factor(std::size_t depth) {
     if (depth > kMaximumFormulaDepth) {
       scanner_.fail(fmt::format("the formula is nested more than {} deep", kMaximumFormulaDepth),
                     "name its parts with 'let'");
     }
-    if (scanner_.take("-")) return formula_.graph.apply(Op::kNegate, factor(depth + 1));
+    const std::size_t from = scanner_.position();
+    if (scanner_.take("-")) {
+      const Value value = factor(depth + 1);
+      return value_of(formula_.graph.apply(Op::kNegate, value.node), value.dimension, from);
+    }
     if (scanner_.take("(")) {
-      const Node inner = expression(depth + 1);
+      const Value inner = expression(depth + 1);
       scanner_.expect(")");
-      return inner;
+      return value_of(inner.node, inner.dimension, from);
     }
     if (scanner_.peek().kind == Word::Kind::kNumber) return number();
     const Place place = scanner_.place();
     const std::string name = dotted_name();
-    if (scanner_.peek().text == "(") return call(place, name, depth);
-    if (const auto known = names_.find(name); known != names_.end()) return known->second;
-    if (name == "pi") return formula_.graph.constant(std::numbers::pi);
+    if (scanner_.peek().text == "(") return call(place, name, depth, from);
+    if (const auto known = names_.find(name); known != names_.end()) {
+      return value_of(known->second.node, known->second.dimension, from);
+    }
+    if (name == "pi") return value_of(formula_.graph.constant(std::numbers::pi), Dimension{}, from);
     std::vector<std::string> candidates;
-    for (const auto& [known, node] : names_) candidates.push_back(known);
+    for (const auto& [known, value] : names_) candidates.push_back(known);
     fail(place, fmt::format("'{}' has no value here", name),
          did_you_mean(name, candidates, fmt::format("use one of {}", fmt::join(candidates, ", "))));
   }
 
-  Node call(const Place& place, const std::string& name, std::size_t depth) {
+  Value call(const Place& place, const std::string& name, std::size_t depth, std::size_t from) {
     for (std::size_t i = 0; i <= std::size_t(Op::kSelect); ++i) {
       const Op operation = static_cast<Op>(i);
       if (row(operation).name != name || name.empty()) continue;
-      Node operands[3] = {};
+      Value operands[3] = {};
       scanner_.expect("(");
       for (int k = 0; k < row(operation).operands; ++k) {
         if (k > 0) scanner_.expect(",");
         operands[k] = expression(depth + 1);
       }
       scanner_.expect(")");
-      return formula_.graph.apply(operation, operands[0], operands[1], operands[2]);
+      const Node node =
+          formula_.graph.apply(operation, operands[0].node, operands[1].node, operands[2].node);
+      return value_of(node, result_dimension(place, operation, operands), from);
     }
     std::vector<std::string> functions;
     for (std::size_t i = 0; i <= std::size_t(Op::kSelect); ++i) {
@@ -164,7 +305,8 @@ class Parser {
   }
 
   // 2, 0.5, 1e-8: the scanner cuts at '.' and '-', so the parts are joined again here.
-  Node number() {
+  Value number() {
+    const std::size_t from = scanner_.position();
     std::string text = scanner_.next().text;
     if (scanner_.peek().text == ".") {
       scanner_.next();
@@ -181,12 +323,14 @@ class Parser {
     if (status != std::errc{} || end != text.data() + text.size()) {
       scanner_.fail(fmt::format("'{}' is no number", text));
     }
-    return formula_.graph.constant(value);
+    const auto dimension = value == 0 ? std::nullopt : std::optional(Dimension{});
+    return value_of(formula_.graph.constant(value), dimension, from);
   }
 
   Scanner& scanner_;
-  std::span<const std::string> output_names_;
-  std::map<std::string, Node> names_;
+  std::span<const FormulaParameter> outputs_;
+  std::vector<std::string> output_names_;
+  std::map<std::string, Value> names_;
   std::vector<std::optional<Node>> results_;
   Formula formula_;
 };
@@ -194,7 +338,8 @@ class Parser {
 }  // namespace
 
 Formula parse_formula(std::string_view text, const Place& place,
-                      std::span<const std::string> inputs, std::span<const std::string> outputs) {
+                      std::span<const FormulaParameter> inputs,
+                      std::span<const FormulaParameter> outputs) {
   Scanner scanner(text, place, {.marks = {"<=", ">="}});
   return Parser(scanner, inputs, outputs).parse();
 }

@@ -7,13 +7,20 @@
 // Operators
 // + - * / < > <= >= and unary -, the functions of scalar_graph.h, select(condition, then,
 // otherwise), and pi.
+//
+// Dimensions are checked: what is added, compared or chosen between has the same one, sine and its
+// kin take a pure number, a square root's exponents are halved, and every result has the dimension
+// of its parameter. Angles count as pure numbers here, as in the SI, so that w x r is a velocity;
+// the number 0 is of every dimension.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "sinew/base/error.h"
+#include "sinew/data/dimension.h"
 #include "sinew/data/scalar_graph.h"
 
 namespace sinew::data {
@@ -21,14 +28,24 @@ namespace sinew::data {
 // How deep an expression may be nested.
 constexpr std::size_t kMaximumFormulaDepth = 64;
 
+// The largest exponent of a base quantity in a formula.
+constexpr int kMaximumFormulaExponent = 24;
+
+// A number that goes in or comes out; without a dimension it is not checked.
+struct FormulaParameter {
+  std::string name;
+  std::optional<Dimension> dimension;
+};
+
 struct Formula {
   ScalarGraph graph;                       // input i is the i-th name of `inputs`
   std::vector<ScalarGraph::Node> outputs;  // in the order of `outputs`
 };
 
-// Throws Error with a place for unknown names, outputs that are missing or given twice, and bad
-// syntax.
+// Throws Error with a place for unknown names, outputs that are missing or given twice, dimensions
+// that do not fit, and bad syntax.
 Formula parse_formula(std::string_view text, const Place& place,
-                      std::span<const std::string> inputs, std::span<const std::string> outputs);
+                      std::span<const FormulaParameter> inputs,
+                      std::span<const FormulaParameter> outputs);
 
 }  // namespace sinew::data

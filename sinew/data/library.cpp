@@ -14,6 +14,7 @@ LibraryBuilder::LibraryBuilder(const Declarations& declarations, const TypeSourc
 
 Library LibraryBuilder::build() {
   read_domains();
+  read_formulas();
   read_algebraics();
   read_aliases();
   read_units();

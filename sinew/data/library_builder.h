@@ -107,6 +107,15 @@ class LibraryBuilder {
                    const std::string& algebraic);
   Index composed_space(const std::string& domain, const std::string& semantic,
                        std::vector<std::pair<std::string, Index>> members);
+  void read_formulas();
+  std::optional<std::vector<FormulaParameter>> formula_parameters(const Domain& domain,
+                                                                  const std::string& semantic,
+                                                                  const FormulaSide& side,
+                                                                  bool constants) const;
+  std::optional<Formula> read_formula(const std::string& text, const Place& place,
+                                      const std::vector<FormulaParameter>& inputs,
+                                      const std::vector<FormulaParameter>& outputs,
+                                      const std::string& about);
   void close_over_formulas();
   std::optional<Index> formula_target(const FormulaDeclaration& formula, const Domain& domain,
                                       const Space& from);
@@ -128,6 +137,7 @@ class LibraryBuilder {
   std::map<std::string, Representation> representations_read_;
   std::map<std::string, Units> units_;
   AliasAlgebra aliases_;
+  std::map<const FormulaDeclaration*, Index> formula_index_;
   std::map<std::string, const PrototypeDeclaration*> prototype_declarations_;
   std::map<std::string, Index> prototypes_;  // those that are sound
   std::set<std::string> open_prototypes_, unsound_prototypes_;

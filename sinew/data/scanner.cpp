@@ -133,4 +133,14 @@ Place Scanner::place() const {
   return place;
 }
 
+std::string Scanner::words(std::size_t from, std::size_t to) const {
+  std::string text;
+  for (std::size_t i = from; i < std::min(to, words_.size()); ++i) {
+    const std::string& word = words_[i].text;
+    const bool spaced = word.find_first_of("+-*/<>") != std::string::npos && i > from;
+    text += spaced ? " " + word + " " : word == "," ? ", " : word;
+  }
+  return text;
+}
+
 }  // namespace sinew::data

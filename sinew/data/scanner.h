@@ -40,6 +40,9 @@ class Scanner {
   std::size_t expect_number(std::string_view what, std::size_t limit);
   [[noreturn]] void fail(const std::string& what, const std::string& remedy = {}) const;
   Place place() const;
+  // How many words were taken, and the words of a stretch, for messages.
+  std::size_t position() const { return at_; }
+  std::string words(std::size_t from, std::size_t to) const;
 
  private:
   Place place_;

@@ -132,9 +132,77 @@ std::optional<Index> LibraryBuilder::formula_target(const FormulaDeclaration& fo
   return composed_space(name, formula.semantic, std::move(members));
 }
 
+// What a formula reads or gives, in the order of the slots. Nothing when the domain lacks it.
+std::optional<std::vector<FormulaParameter>> LibraryBuilder::formula_parameters(
+    const Domain& domain, const std::string& semantic, const FormulaSide& side,
+    bool constants) const {
+  std::vector<FormulaParameter> result;
+  const auto add = [&](const std::string& of, const std::string& coordinates,
+                       const std::string& prefix) {
+    const auto found = domain.coordinates.find({of, coordinates});
+    if (found == domain.coordinates.end()) return false;
+    for (const Space::Slot& slot : found->second.slots) {
+      if (constants || !slot.constant) result.push_back({prefix + slot.name, slot.dimension});
+    }
+    return true;
+  };
+  if (side.members.empty()) {
+    if (!add(semantic, side.coordinates, "")) return std::nullopt;
+    return result;
+  }
+  const auto composite = domain.composites.find(semantic);
+  if (composite == domain.composites.end()) return std::nullopt;
+  for (const std::string& member : composite->second) {
+    for (const auto& [name, coordinates] : side.members) {
+      if (name == member && !add(member, coordinates, member + ".")) return std::nullopt;
+    }
+  }
+  return result;
+}
+
+// All formulas are read, whether a prototype needs them or not: a domain is right or wrong as a
+// whole.
+void LibraryBuilder::read_formulas() {
+  for (const auto& [name, domain] : domains_) {
+    for (const FormulaDeclaration& formula : domain.declaration->formulas) {
+      const auto inputs = formula_parameters(domain, formula.semantic, formula.from, true);
+      const auto outputs = formula_parameters(domain, formula.semantic, formula.to, false);
+      if (!inputs || !outputs) {
+        error(formula.place, name,
+              fmt::format("a formula of {} is between coordinates that it does not have",
+                          formula.semantic),
+              "declare them with 'coordinates'");
+        continue;
+      }
+      SpaceFormula result;
+      result.loses = formula.loses;
+      result.place = formula.place;
+      const auto read = read_formula(formula.text, formula.text_place, *inputs, *outputs, name);
+      if (!read) continue;
+      result.formula = *read;
+      result.cost = result.formula.graph.cost(result.formula.outputs);
+      formula_index_[&formula] = library_.formulas.size();
+      library_.formulas.push_back(std::move(result));
+    }
+  }
+}
+
+std::optional<Formula> LibraryBuilder::read_formula(const std::string& text, const Place& place,
+                                                    const std::vector<FormulaParameter>& inputs,
+                                                    const std::vector<FormulaParameter>& outputs,
+                                                    const std::string& about) {
+  try {
+    return parse_formula(text, place, inputs, outputs);
+  } catch (const Error& error) {
+    for (Problem problem : error.problems()) {
+      problem.iri = about;
+      report_.add(std::move(problem));
+    }
+    return std::nullopt;
+  }
+}
+
 void LibraryBuilder::close_over_formulas() {
-  // Formulas are read once for each pair of spaces' slot names, which do not depend on conventions.
-  std::map<const FormulaDeclaration*, Index> read;
   std::map<std::string, std::vector<const FormulaDeclaration*>> sorted;  // by domain
   for (const auto& [name, domain] : domains_) {
     auto& formulas = sorted[name];
@@ -160,31 +228,9 @@ void LibraryBuilder::close_over_formulas() {
       const Space from = library_.spaces[at];  // a copy: making spaces moves them
       const auto target = formula_target(formula, domain->second, from);
       if (!target) continue;
-      const auto known = read.find(&formula);
-      Index index = known == read.end() ? library_.formulas.size() : known->second;
-      if (known == read.end()) {
-        std::vector<std::string> inputs, outputs;
-        for (const Space::Slot& slot : from.slots) inputs.push_back(slot.name);
-        for (const Space::Slot& slot : library_.spaces[*target].slots) {
-          if (!slot.constant) outputs.push_back(slot.name);
-        }
-        SpaceFormula result;
-        result.loses = formula.loses;
-        result.place = formula.place;
-        try {
-          result.formula = parse_formula(formula.text, formula.text_place, inputs, outputs);
-        } catch (const Error& error) {
-          for (Problem problem : error.problems()) {
-            problem.iri = domain->first;
-            report_.add(std::move(problem));
-          }
-          result.formula.outputs.clear();
-        }
-        result.cost = result.formula.graph.cost(result.formula.outputs);
-        read[&formula] = index;
-        library_.formulas.push_back(std::move(result));
-      }
-      library_.formula_edges.push_back({at, *target, index, true});
+      const auto index = formula_index_.find(&formula);
+      if (index == formula_index_.end()) continue;  // reported where it was read
+      library_.formula_edges.push_back({at, *target, index->second, true});
     }
   }
   std::set<std::pair<Index, Index>> edges;

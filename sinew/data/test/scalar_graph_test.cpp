@@ -13,7 +13,7 @@ using Op = ScalarOperation;
 
 // The value of a formula's only output.
 double value(const std::string& text, double x, double y) {
-  const std::vector<std::string> inputs = {"x", "y"}, outputs = {"z"};
+  const std::vector<FormulaParameter> inputs = {{"x", {}}, {"y", {}}}, outputs = {{"z", {}}};
   const Formula formula = parse_formula("z = " + text, {"f", 1, 1}, inputs, outputs);
   std::vector<double> values;
   for (const ScalarNode& node : formula.graph.nodes()) {
