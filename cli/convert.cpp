@@ -23,7 +23,7 @@ struct ConvertOptions {
   std::string file, source, target;
   bool explain = false, allow_lossy = false;
   std::string emit, function_name, values, output;
-  std::vector<std::string> types;
+  std::vector<std::string> types, given;
 };
 
 [[noreturn]] void fail(const data::Prototype& prototype, std::string what, std::string remedy) {
@@ -68,7 +68,7 @@ Value value_of(const data::Prototype& prototype) {
   return value;
 }
 
-std::vector<double> parse_numbers(const std::string& text) {
+std::vector<double> parse_numbers(const std::string& option, const std::string& text) {
   std::vector<double> numbers;
   const char *at = text.data(), *end = text.data() + text.size();
   while (true) {
@@ -76,7 +76,7 @@ std::vector<double> parse_numbers(const std::string& text) {
     const auto [next, status] = std::from_chars(at, end, number);
     if (status != std::errc{} || (next != end && *next != ',')) {
       throw Error({{},
-                   "--values",
+                   option,
                    fmt::format("'{}' is no list of numbers", text),
                    "write 0.1,0.2,0.3",
                    Severity::kError,
@@ -88,23 +88,54 @@ std::vector<double> parse_numbers(const std::string& text) {
   }
 }
 
+void fill(const data::Prototype& prototype, Value& value, const std::string& option,
+          const std::string& text) {
+  const std::vector<double> numbers = parse_numbers(option, text);
+  if (numbers.size() != value.places.size()) {
+    fail(prototype,
+         fmt::format("it has {} numbers, {} were given", value.places.size(), numbers.size()),
+         "give them in the order of memory");
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    std::memcpy(value.memory.data() + value.places[i].offsets[0], &numbers[i], sizeof(double));
+  }
+}
+
+// "tool in base=0.1,0,…" among the --with options.
+Value given_relation(const data::Library& library, const data::Relation& relation,
+                     const ConvertOptions& options) {
+  const data::Prototype& prototype = library.prototypes[relation.prototype];
+  for (const std::string& given : options.given) {
+    const std::size_t equals = given.find('=');
+    if (equals == std::string::npos || given.substr(0, equals) != relation.name()) continue;
+    Value value = value_of(prototype);
+    fill(prototype, value, "--with", given.substr(equals + 1));
+    return value;
+  }
+  throw Error({relation.place,
+               relation.name(),
+               "the conversion needs this relation",
+               fmt::format("give it: --with \"{}=NUMBERS\", in the order of the memory of {}",
+                           relation.name(), prototype.name),
+               Severity::kError,
+               {}});
+}
+
 std::string convert_values(const data::Library& library, const data::Plan& plan,
                            const ConvertOptions& options) {
   const data::Prototype& source = library.prototypes[library.prototypes[plan.source].owner];
   const data::Prototype& target = library.prototypes[library.prototypes[plan.target].owner];
   Value from = value_of(source), to = value_of(target);
-  const std::vector<double> numbers = parse_numbers(options.values);
-  if (numbers.size() != from.places.size()) {
-    fail(source,
-         fmt::format("it has {} numbers, {} were given", from.places.size(), numbers.size()),
-         "give them in the order of memory");
+  fill(source, from, "--values", options.values);
+  std::vector<Value> relations;
+  for (const data::Index index : data::inputs_of(library, plan)) {
+    relations.push_back(given_relation(library, library.relations[index], options));
   }
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    std::memcpy(from.memory.data() + from.places[i].offsets[0], &numbers[i], sizeof(double));
-  }
+  std::vector<const void*> inputs;
+  for (const Value& relation : relations) inputs.push_back(relation.memory.data());
   data::EngineOptions engine;
   engine.library_directories = {std::filesystem::path(options.file).parent_path().string()};
-  data::make_converter(library, plan, engine).run(from.memory.data(), to.memory.data());
+  data::make_converter(library, plan, engine).run(from.memory.data(), to.memory.data(), inputs);
   std::string text;
   for (std::size_t i = 0; i < to.places.size(); ++i) {
     double number = 0;
@@ -148,6 +179,8 @@ int run_convert(Arguments arguments) {
                  "The function's name; SOURCE_to_TARGET without it");
   app.add_option("--values", options.values,
                  "Convert these numbers (in the order of memory), print the result");
+  app.add_option("--with", options.given,
+                 "A relation between frames that the conversion needs: \"tool in base=0.1,0,…\"");
   app.add_flag("--allow-lossy", options.allow_lossy, "Take steps that lose something");
   app.add_option("--types", options.types,
                  "Directories to look for .msg, .asn, .idl, .smdsd files in");

@@ -45,12 +45,14 @@ class Elaboration {
     collect_prelude();
     for (std::size_t i = 0; i < items_.size(); ++i) elaborate_item(items_[i]);
     // Prelude items are elaborated where a reference asks for them; they may ask for others.
-    while (!wanted_.empty()) {
-      const ScopedItem item = *wanted_.begin()->second;
-      wanted_.erase(wanted_.begin());
-      elaborate_item(item);
-    }
-    add_prelude_aliases();
+    do {
+      while (!wanted_.empty()) {
+        const ScopedItem item = *wanted_.begin()->second;
+        wanted_.erase(wanted_.begin());
+        elaborate_item(item);
+      }
+      add_prelude_aliases();
+    } while (!wanted_.empty());
     report_.throw_if_errors();
     return std::move(declarations_);
   }
@@ -150,11 +152,13 @@ class Elaboration {
     return name;
   }
 
+  // The prelude's aliases of the forms that are used, which may bring in others.
   void add_prelude_aliases() {
     for (const ScopedItem& item : prelude_items_) {
-      if (item.node->kind != "alias") continue;
-      if (prelude_used_.count({"algebraic", item.node->text("left")}) &&
+      if (item.node->kind != "alias" || aliases_added_.count(item.node)) continue;
+      if (prelude_used_.count({"algebraic", item.node->text("left")}) ||
           prelude_used_.count({"algebraic", item.node->text("right")})) {
+        aliases_added_.insert(item.node);
         elaborate_item(item);
       }
     }
@@ -176,6 +180,7 @@ class Elaboration {
   std::map<std::string, std::set<std::string>> names_;  // by kind
   std::set<std::pair<std::string, std::string>> prelude_used_;
   std::map<std::pair<std::string, std::string>, const ScopedItem*> wanted_;
+  std::set<const Node*> aliases_added_;
 };
 
 }  // namespace

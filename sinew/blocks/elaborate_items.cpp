@@ -74,6 +74,8 @@ void ItemElaborator::run(const Node& node) {
     function(node);
   } else if (kind == "conversion") {
     conversion(node);
+  } else if (kind == "relation") {
+    relation(node);
   }
 }
 
@@ -171,7 +173,12 @@ void ItemElaborator::domain(const Node& node) {
     } else if (child.kind == "composite") {
       domain.composites.push_back({child.text("name"), child.all("member"), child.place});
     } else if (child.kind == "convention") {
-      domain.conventions.push_back({child.text("name"), child.all("of"), child.place});
+      domain.conventions.push_back(
+          {child.text("name"), child.all("of"), child.has("optional"), child.place});
+    } else if (child.kind == "rule") {
+      domain.relation_rules.push_back(rule(child));
+    } else if (child.kind == "change") {
+      domain.changes.push_back(change(child));
     } else if (child.kind == "older") {
       domain.older_names.push_back(child.text("name"));
     } else if (child.kind == "formula") {
@@ -216,6 +223,39 @@ void ItemElaborator::formula(const Node& node, data::DomainDeclaration& domain) 
   domain.formulas.push_back({formula_side(node.text("from")), formula_side(node.text("to")),
                              node.text("of"), node.text("loses"), node.text("text"), node.place,
                              node.place_of("text")});
+}
+
+data::RelationRuleDeclaration ItemElaborator::rule(const Node& node) {
+  const auto text = [&](std::string_view name) {
+    return data::FormulaText{node.text(name), node.place_of(name)};
+  };
+  return {node.text("name"), node.text("of"), text("identity"),
+          text("inverse"),   text("product"), node.place};
+}
+
+data::ChangeDeclaration ItemElaborator::change(const Node& node) {
+  data::ChangeDeclaration change;
+  change.convention = node.text("convention");
+  change.coordinates = node.text("name");
+  change.semantics = node.all("of");
+  change.needs = node.text("needs");
+  change.formula = {node.text("text"), node.place_of("text")};
+  change.place = node.place;
+  for (const Node& input : node.children) {
+    change.inputs.push_back({input.text("name"), input.text("of"), input.text("in"), input.place});
+  }
+  return change;
+}
+
+void ItemElaborator::relation(const Node& node) {
+  data::RelationDeclaration relation;
+  relation.frame = node.text("frame");
+  relation.reference = node.text("reference");
+  relation.prototype = resolve_("dproto", node.text("prototype"));
+  relation.constant = node.has("constant");
+  if (relation.constant) relation.entries = entries(node);
+  relation.place = node.place;
+  declarations_.relations.push_back(std::move(relation));
 }
 
 void ItemElaborator::prototype(const Node& node) {

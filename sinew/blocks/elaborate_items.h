@@ -28,6 +28,9 @@ class ItemElaborator {
   void view(const Node& node);
   void function(const Node& node);
   void conversion(const Node& node);
+  void relation(const Node& node);
+  static data::RelationRuleDeclaration rule(const Node& node);
+  static data::ChangeDeclaration change(const Node& node);
   data::UnitsDeclaration units(const Node& node, const std::string& name);
   std::vector<data::MapEntry> entries(const Node& node);
   data::Algebraic form(const Node& node);

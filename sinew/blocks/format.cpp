@@ -255,6 +255,14 @@ class Formatter {
       } else {
         braces(head, node, indent);
       }
+    } else if (kind == "relation") {
+      const std::string head = fmt::format("relation {} in {} = {}", node.text("frame"),
+                                           node.text("reference"), node.text("prototype"));
+      if (node.has("constant")) {
+        braces(head, node, indent);
+      } else {
+        text_ += indent + head;
+      }
     } else if (kind == "fproto") {
       function(node, indent);
     }
@@ -313,9 +321,14 @@ class Formatter {
                                             child.text("to"), child.text("of"));
              if (child.has("loses")) head += fmt::format(" loses \"{}\"", child.text("loses"));
              raw(head, child.text("text"), inner);
+           } else if (child.kind == "rule") {
+             rule(child, inner);
+           } else if (child.kind == "change") {
+             change(child, inner);
            } else if (child.kind == "convention") {
-             filled(fmt::format("convention {} of", child.text("name")), child.all("of"), ",",
-                    inner);
+             filled(fmt::format("convention {}{} of", child.text("name"),
+                                child.has("optional") ? " ?" : ""),
+                    child.all("of"), ",", inner);
            } else if (child.kind == "annotation" && child.has("value")) {
              filled(fmt::format("{}{} :", child.text("name"), child.has("optional") ? " ?" : ""),
                     child.all("value"), " |", inner);
@@ -323,6 +336,30 @@ class Formatter {
              text_ += inner + entry(child);
            }
          });
+  }
+
+  void rule(const Node& node, const std::string& indent) {
+    text_ += fmt::format("{}relation {} of {}", indent, node.text("name"), node.text("of"));
+    for (const char* part : {"identity", "inverse", "product"}) {
+      text_ += "\n";
+      raw(part, node.text(part), indent + "  ");
+    }
+  }
+
+  void change(const Node& node, const std::string& indent) {
+    filled(fmt::format("change {} {} of", node.text("convention"), node.text("name")),
+           node.all("of"), ",", indent);
+    if (node.has("needs")) {
+      text_ += fmt::format("\n{}  needs \"{}\"", indent, node.text("needs"));
+      return;
+    }
+    std::vector<std::string> inputs;
+    for (const Node& input : node.children) {
+      inputs.push_back(
+          fmt::format("{} = {} in {}", input.text("name"), input.text("of"), input.text("in")));
+    }
+    text_ += "\n";
+    raw(fmt::format("with {}", fmt::join(inputs, ", ")), node.text("text"), indent + "  ");
   }
 
   void prototype(const Node& unordered, const std::string& indent) {

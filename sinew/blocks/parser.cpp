@@ -16,9 +16,9 @@ const std::vector<std::string> kOtherHalf = {"load",     "fblx",  "dblx",   "ext
 }  // namespace
 
 const std::vector<std::string>& item_keywords() {
-  static const std::vector<std::string> keywords = {"import",    "module",     "domain", "ddr",
-                                                    "algebraic", "units",      "alias",  "dproto",
-                                                    "view",      "conversion", "fproto"};
+  static const std::vector<std::string> keywords = {
+      "import", "module", "domain", "ddr",        "algebraic", "units",
+      "alias",  "dproto", "view",   "conversion", "fproto",    "relation"};
   return keywords;
 }
 
@@ -81,11 +81,12 @@ Node Parser::parse_item(std::size_t depth) {
   if (at_word("view")) return parse_view();
   if (at_word("conversion")) return parse_conversion();
   if (at_word("fproto")) return parse_fproto();
+  if (at_word("relation")) return parse_relation();
   const std::string word = lexer_.peek().text;
   if (std::find(kOtherHalf.begin(), kOtherHalf.end(), word) != kOtherHalf.end()) {
     fail(fmt::format("'{}' belongs to the composition of functions, which is not read here", word),
          "describe data: import, module, domain, ddr, algebraic, units, alias, dproto, view, "
-         "conversion, fproto");
+         "conversion, fproto, relation");
   }
   fail(fmt::format("{} where an item should begin", found()),
        data::did_you_mean(
@@ -313,6 +314,25 @@ Node Parser::parse_conversion() {
   add_here(node, "function", parse_qualified("a function"), place);
   if (at("{")) {
     parse_braces(node, [&] { return parse_setting(); });
+  }
+  return node;
+}
+
+// relation tool in base = PROTOTYPE [ { part = const number } ]
+Node Parser::parse_relation() {
+  Node node = begin("relation");
+  lexer_.next();
+  node.add("frame", expect_name("a frame"));
+  if (!take_word("in")) {
+    fail(fmt::format("{} where 'in' should be", found()), "write relation FRAME in FRAME");
+  }
+  node.add("reference", expect_name("a frame"));
+  expect("=");
+  const Place place = lexer_.place();
+  add_here(node, "prototype", parse_qualified("a prototype"), place);
+  if (at("{")) {
+    node.add("constant", "const");
+    parse_braces(node, [&] { return parse_entry(); });
   }
   return node;
 }

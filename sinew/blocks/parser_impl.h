@@ -27,6 +27,7 @@ class Parser {
   Node parse_alias();
   Node parse_view();
   Node parse_conversion();
+  Node parse_relation();
   Node parse_fproto();
   Node parse_argument();
   Node parse_setting();
@@ -37,6 +38,9 @@ class Parser {
   Node parse_coordinates();
   Node parse_formula();
   std::string parse_formula_side();
+  Node parse_rule();
+  Node parse_change();
+  void parse_text(Node& node, std::string name);
   void parse_semantics(Node& node);
 
   // parser_prototype.cpp

@@ -17,7 +17,18 @@ constexpr TextRow kFormula[] = {{"from", "from-coordinates"},
                                 {"of", "meaning"},
                                 {"loses", "loses"},
                                 {"text", "text"}};
-constexpr TextRow kConvention[] = {{"name", "name"}, {"of", "of", kList}};
+constexpr TextRow kConvention[] = {{"name", "name"}, {"optional", "optional"}, {"of", "of", kList}};
+constexpr TextRow kRule[] = {{"name", "name"},
+                             {"of", "meaning"},
+                             {"identity", "identity"},
+                             {"inverse", "inverse"},
+                             {"product", "product"}};
+constexpr TextRow kChange[] = {{"convention", "changes"},
+                               {"name", "name"},
+                               {"of", "of", kList},
+                               {"needs", "needs"},
+                               {"text", "text"}};
+constexpr TextRow kGiven[] = {{"name", "name"}, {"of", "frame"}, {"in", "reference"}};
 constexpr TextRow kRepresentation[] = {{"name", "name"}, {"context", "language"}, {"text", "text"}};
 constexpr TextRow kAlgebraic[] = {{"name", "name"}, {"form", "form"}};
 constexpr TextRow kUnits[] = {{"name", "name"},
@@ -37,6 +48,10 @@ constexpr TextRow kView[] = {{"prototype", "prototype", kReference, "dproto"},
 constexpr TextRow kConversion[] = {{"from", "from", kReference, "dproto"},
                                    {"to", "to", kReference, "dproto"},
                                    {"function", "function", kReference, "fproto"}};
+constexpr TextRow kRelation[] = {{"frame", "frame"},
+                                 {"reference", "reference"},
+                                 {"prototype", "prototype", kReference, "dproto"},
+                                 {"constant", "constant"}};
 constexpr TextRow kSetting[] = {
     {"name", "name"}, {"number", "number"}, {"word", "word"}, {"text", "text"}};
 constexpr TextRow kFunction[] = {{"name", "name"}, {"context", "language"}};
@@ -54,6 +69,9 @@ constexpr KindRow kKinds[] = {
     {"parameter", "Parameter", kParameter},
     {"formula", "Formula", kFormula},
     {"convention", "Convention", kConvention},
+    {"rule", "RelationRule", kRule},
+    {"change", "Change", kChange},
+    {"given", "GivenRelation", kGiven},
     {"older", "OlderName", kName},
     {"ddr", "Representation", kRepresentation, true},
     {"algebraic", "AlgebraicForm", kAlgebraic, true},
@@ -65,6 +83,7 @@ constexpr KindRow kKinds[] = {
     {"member", "Member", kMember},
     {"view", "View", kView},
     {"conversion", "Conversion", kConversion},
+    {"relation", "Relation", kRelation},
     {"setting", "Setting", kSetting},
     {"fproto", "Function", kFunction, true},
     {"args", "Arguments", {}},

@@ -153,6 +153,13 @@ bool LibraryBuilder::read_composite(const PrototypeDeclaration& declaration, con
       sound = false;
       continue;
     }
+    if (type.bindings.empty()) {
+      error(reference.place, about,
+            fmt::format("the numbers of '{}' are reached by functions only", reference.value),
+            "compose prototypes with maps");
+      sound = false;
+      continue;
+    }
     if (!found.emplace(member, *part).second) {
       error(reference.place, about, fmt::format("member '{}' is there twice", member),
             "leave one out");

@@ -38,6 +38,15 @@ std::vector<std::string> Domain::conventions_of(const std::string& semantic) con
   return names;
 }
 
+bool Domain::is_optional(const std::string& name, const std::string& semantic) const {
+  for (const ConventionDeclaration& convention : declaration->conventions) {
+    if (convention.name != name || !convention.optional) continue;
+    const auto& of = convention.semantics;
+    if (std::find(of.begin(), of.end(), semantic) != of.end()) return true;
+  }
+  return false;
+}
+
 const AnnotationDeclaration* Domain::annotation(const std::string& name) const {
   for (const AnnotationDeclaration& annotation : declaration->annotations) {
     if (annotation.name == name) return &annotation;

@@ -93,7 +93,9 @@ void LibraryBuilder::read_functions() {
         }
         continue;
       }
-      function.arguments.push_back({position, argument->input, prototype->second});
+      const bool in_place = argument->input && argument->output;
+      function.arguments.push_back(
+          {position, argument->input && !in_place, in_place, prototype->second});
     }
     if (!sound) continue;
     library_.functions.push_back(std::move(function));
@@ -157,7 +159,7 @@ void LibraryBuilder::read_conversions() {
           std::any_of(function.arguments.begin(), function.arguments.end(),
                       [&](const auto& a) { return a.input && a.prototype == from; }) &&
           std::any_of(function.arguments.begin(), function.arguments.end(),
-                      [&](const auto& a) { return !a.input && a.prototype == to; });
+                      [&](const auto& a) { return !a.input && !a.in_place && a.prototype == to; });
       if (!fits) {
         fail(fmt::format("the function '{}' does not take '{}' and give '{}'", function.name,
                          declaration.from, declaration.to),

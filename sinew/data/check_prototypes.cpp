@@ -117,7 +117,8 @@ bool LibraryBuilder::read_convention(const PrototypeDeclaration& declaration, co
     }
   }
   for (const std::string& name : asked) {
-    if (given.count(name) || !sound) continue;
+    if (given.count(name) || !sound || domain.is_optional(name, declaration.semantic.value))
+      continue;
     error(declaration.place, declaration.name,
           fmt::format("{} needs the convention '{}'", declaration.semantic.value, name),
           fmt::format("write convention = {{ {} = NAME }}", name));
@@ -203,6 +204,18 @@ std::vector<Unit> LibraryBuilder::units_for(const PrototypeDeclaration& declarat
   return result;
 }
 
+// Only its memory is described, and functions say what is in it.
+bool LibraryBuilder::is_viewed_by_functions(const PrototypeDeclaration& declaration) const {
+  if (declaration.algebraic.given() || declaration.coordinates.given() ||
+      declaration.units.given() || declaration.has_map) {
+    return false;
+  }
+  return std::any_of(declarations_.views.begin(), declarations_.views.end(),
+                     [&](const ViewDeclaration& view) {
+                       return view.prototype == declaration.name && !view.function.empty();
+                     });
+}
+
 bool LibraryBuilder::read_plain(const PrototypeDeclaration& declaration, const Domain& domain,
                                 Prototype& prototype) {
   const std::string& about = declaration.name;
@@ -211,8 +224,13 @@ bool LibraryBuilder::read_plain(const PrototypeDeclaration& declaration, const D
           fmt::format("add {} = …", what));
     return false;
   };
-  if (!declaration.algebraic.given()) return missing("algebraic");
   if (!declaration.representation.given()) return missing("ddr");
+  if (is_viewed_by_functions(declaration)) {
+    const auto representation = representation_of(declaration.representation, about);
+    if (representation) prototype.representation = *representation;
+    return representation.has_value();
+  }
+  if (!declaration.algebraic.given()) return missing("algebraic");
   if (!declaration.coordinates.given() && domain.has_coordinates_for(prototype.semantic))
     return missing("coord");
   const AnnotationDeclaration* coord = domain.annotation("coord");

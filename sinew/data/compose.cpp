@@ -47,6 +47,9 @@ std::vector<InsertedConversion> insert_conversions(const Library& library,
       InsertedConversion conversion;
       conversion.plan = find_plan(library, *from, *to, options);
       conversion.block = fmt::format("{}.{}.as.{}", output.closure, output.port, input.prototype);
+      for (const Index relation : inputs_of(library, conversion.plan)) {
+        conversion.inputs.push_back(library.relations[relation].name());
+      }
       conversion.closure = "convert." + conversion.block;
       conversion.connections = {i};
       known.emplace(key, inserted.size());

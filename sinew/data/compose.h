@@ -25,6 +25,7 @@ struct InsertedConversion {
   std::string closure;  // "convert.SOURCE_BLOCK.PROTOTYPE": the same for the same composition
   std::string block;    // the block of the target's prototype that it writes and the consumers read
   Plan plan;
+  std::vector<std::string> inputs;       // relations that it reads besides, as in "tool in base"
   std::vector<std::size_t> connections;  // those that read the block, by index
 };
 

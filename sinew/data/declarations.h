@@ -58,7 +58,35 @@ struct FormulaDeclaration {
 };
 struct ConventionDeclaration {
   std::string name;                    // reference_point
-  std::vector<std::string> semantics;  // whose prototypes have to state it
+  std::vector<std::string> semantics;  // whose prototypes have to state it, or may where optional
+  bool optional = false;
+  Place place;
+};
+// A formula's text with its place.
+struct FormulaText {
+  std::string text;
+  Place place;
+};
+// How relations between frames are put together, in one kind of coordinates.
+struct RelationRuleDeclaration {
+  std::string coordinates, semantic;
+  FormulaText identity;  // of a frame with itself; no inputs
+  FormulaText inverse;   // from the relation's own parameters
+  FormulaText product;   // from `first`, of B in A, and `second`, of C in B: of C in A
+  Place place;
+};
+// What a value becomes when one of its conventions changes.
+struct ChangeInput {
+  std::string name;    // of the relation in the formula
+  std::string of, in;  // "old", "new", or a convention of the value
+  Place place;
+};
+struct ChangeDeclaration {
+  std::string convention, coordinates;
+  std::vector<std::string> semantics;
+  std::vector<ChangeInput> inputs;
+  std::string needs;  // instead of a formula: what it would take
+  FormulaText formula;
   Place place;
 };
 struct DomainDeclaration {
@@ -69,6 +97,8 @@ struct DomainDeclaration {
   std::vector<CoordinatesDeclaration> coordinates;
   std::vector<FormulaDeclaration> formulas;
   std::vector<ConventionDeclaration> conventions;
+  std::vector<RelationRuleDeclaration> relation_rules;
+  std::vector<ChangeDeclaration> changes;
   Place place;
 };
 
@@ -130,10 +160,20 @@ struct ViewDeclaration {
   Place place;
 };
 
+// The relation of one frame to another, as a prototype says it: a value that is given when a
+// conversion runs, or, with entries (part of the representation = const number), one that never
+// changes.
+struct RelationDeclaration {
+  std::string frame, reference, prototype;
+  std::vector<MapEntry> entries;
+  bool constant = false;
+  Place place;
+};
+
 struct ArgumentDeclaration {
-  std::size_t position = 0;  // 0 is the return value
-  bool input = false, output = false;
-  std::string prototype;  // or, in the context "coordinates", DOMAIN.COORDINATES
+  std::size_t position = 0;            // 0 is the return value
+  bool input = false, output = false;  // both: the function changes what is there
+  std::string prototype;               // or, in the context "coordinates", DOMAIN.COORDINATES
   Place place;
 };
 struct FunctionDeclaration {
@@ -161,6 +201,7 @@ struct Declarations {
   std::vector<ViewDeclaration> views;
   std::vector<FunctionDeclaration> functions;
   std::vector<ConversionDeclaration> conversions;
+  std::vector<RelationDeclaration> relations;
 };
 
 }  // namespace sinew::data

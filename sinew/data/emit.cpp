@@ -106,8 +106,8 @@ class Emitter {
     const Type& type = *representation(block).type;
     std::string object = program_.blocks[block].name;
     const bool array = type.kind == Type::Kind::kArray && type.spelling.empty();
-    if (!cpp() && block < 2 && !array) object = "(*" + object + ")";
-    if (!cpp() && block < 2 && pattern.starts_with("$.")) {
+    if (!cpp() && program_.is_parameter(block) && !array) object = "(*" + object + ")";
+    if (!cpp() && program_.is_parameter(block) && pattern.starts_with("$.")) {
       return program_.blocks[block].name + "->" + substitute(pattern.substr(2), object);
     }
     return substitute(pattern, object);
@@ -228,7 +228,7 @@ class Emitter {
     for (const auto& [count, index] : guards_) {
       text += fmt::format("  if ({} <= {}) return {};\n", count, index, cpp() ? "false" : "0");
     }
-    for (Index block = 2; block < program_.blocks.size(); ++block) {
+    for (Index block = 2 + program_.inputs; block < program_.blocks.size(); ++block) {
       text +=
           fmt::format("  {};\n", declare(*representation(block).type, program_.blocks[block].name,
                                          cpp() ? SourceLanguage::kCpp : SourceLanguage::kC));
@@ -254,7 +254,7 @@ class Emitter {
       const Index block = call.blocks[i];
       const Type& type = *representation(block).type;
       const std::string& object = program_.blocks[block].name;
-      const bool pointer = !cpp() && block < 2;  // a parameter of the C function
+      const bool pointer = !cpp() && program_.is_parameter(block);  // a parameter of the C function
       if (function.arguments[i].position == 0) {
         result = pointer ? fmt::format("*{} = ", object) : fmt::format("{} = ", object);
         continue;
@@ -309,9 +309,9 @@ class Emitter {
 
   std::string emit_signature() const {
     std::string parameters;
-    for (Index block = 0; block < 2; ++block) {
+    for (Index block = 0; program_.is_parameter(block); ++block) {
       const Type& type = *representation(block).type;
-      const std::string constant = block == 0 ? "const " : "";
+      const std::string constant = block == 1 ? "" : "const ";
       const std::string& object = program_.blocks[block].name;
       if (block > 0) parameters += ", ";
       if (is_array(type)) {

@@ -3,6 +3,9 @@
 //   C    static inline void SOURCE_to_TARGET(const S* source, T* target);
 //   C++  inline void SOURCE_to_TARGET(const S& source, T& target);
 //
+// The relations between frames that a change of conventions computes with follow as parameters of
+// their own: `const P& tool_in_base`.
+//
 // Where a type grows while it runs (std::vector, asn1c's lists), the function returns bool instead:
 // false, with the target untouched, when there are too few elements on either side; it never
 // allocates.

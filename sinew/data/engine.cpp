@@ -193,14 +193,18 @@ bool Converter::step_at(const Converter* converter, std::uint64_t index, double*
   return converter->step(converter->operations_[index], registers, blocks);
 }
 
-bool Converter::run(const void* source, void* target) const {
+bool Converter::run(const void* source, void* target, std::span<const void* const> inputs) const {
+  if (inputs.size() != inputs_) return false;
   double r[kMaximumRegisters];
   alignas(64) char scratch[kMaximumScratch];
   char* blocks[kMaximumBlocks];
-  // The source is only read.
+  // The source and the inputs are only read.
   blocks[0] = const_cast<char*>(static_cast<const char*>(source));
   blocks[1] = static_cast<char*>(target);
-  for (std::size_t i = 0; i < scratch_.size(); ++i) blocks[i + 2] = scratch + scratch_[i];
+  for (std::size_t i = 0; i < inputs_; ++i) {
+    blocks[2 + i] = const_cast<char*>(static_cast<const char*>(inputs[i]));
+  }
+  for (std::size_t i = 0; i < scratch_.size(); ++i) blocks[2 + inputs_ + i] = scratch + scratch_[i];
   if (needs_constants_) {
     for (std::size_t i = 0; i < constants_.size(); ++i) r[i] = constants_[i];
   }

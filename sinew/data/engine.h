@@ -38,7 +38,9 @@ class Converter {
  public:
   // False, with the target untouched, when a container that grows has too few elements on either
   // side. Any number of threads may run one converter at once.
-  bool run(const void* source, void* target) const;
+  // `inputs` are the relations between frames that the conversion computes with, in the order of
+  // inputs_of (plan.h); false where their number is another.
+  bool run(const void* source, void* target, std::span<const void* const> inputs = {}) const;
 
   std::size_t operations() const { return operations_.size(); }
   // Whether the operations became machine code.
@@ -95,6 +97,7 @@ class Converter {
   std::vector<Path> paths_;
   std::vector<Guard> guards_;
   std::vector<Call> calls_;
+  std::size_t inputs_ = 0;
   std::vector<std::size_t> scratch_;  // where each intermediate block begins
   std::vector<std::shared_ptr<void>> libraries_;
   std::shared_ptr<const void> code_;

@@ -57,7 +57,8 @@ class ConverterBuilder {
            fmt::format("at most {} are possible", kMaximumBlocks));
     }
     std::size_t used = 0;
-    for (Index block = 2; block < program_.blocks.size(); ++block) {
+    result_.inputs_ = program_.inputs;
+    for (Index block = 2 + program_.inputs; block < program_.blocks.size(); ++block) {
       const std::size_t alignment = std::max<std::size_t>(type_of(block).alignment, 16);
       used = (used + alignment - 1) / alignment * alignment;
       result_.scratch_.push_back(used);

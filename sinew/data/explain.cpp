@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "sinew/data/plan.h"
 
@@ -88,6 +89,26 @@ class Segmenter {
           converted = true;
           break;
         }
+        case Kind::kApart:
+        case Kind::kTogether: {
+          const bool apart = step.kind == Kind::kApart;
+          segment.type = ConversionType::kComposite;
+          segment.how = apart ? "part by part, read by functions" : "part by part, by functions";
+          const Space& space = library_.spaces[apart ? step.to : step.from];
+          for (std::size_t m = 0; m < step.members.size(); ++m) {
+            segment.members.emplace_back(space.members[m].first, run(step.members[m], !apart));
+          }
+          segment.to = apart ? short_name(library_, step.to) : library_.prototypes[step.to].name;
+          converted = apart;
+          if (!apart) at_prototype = step.to;
+          break;
+        }
+        case Kind::kChange:
+          segment.type = ConversionType::kFunction;
+          segment.how = changes(step);
+          segment.to = short_name(library_, step.to);
+          converted = true;
+          break;
         case Kind::kFunction: {
           const FunctionEdge& edge = library_.function_edges[step.which];
           segment.type = ConversionType::kFunction;
@@ -110,6 +131,22 @@ class Segmenter {
   }
 
  private:
+  // "change of expressed_in from tool to base, by tool in base"
+  std::string changes(const PlanStep& step) const {
+    std::vector<std::string> all;
+    std::set<std::string> used;
+    for (const ConventionStep& change : step.changes) {
+      all.push_back(fmt::format("{} from {} to {}", change.convention, change.from, change.to));
+      for (const auto& chain : change.inputs) {
+        for (const RelationLink& link : chain) {
+          const Relation& relation = library_.relations[link.relation];
+          used.insert(relation.name() + (relation.constant ? " (constant)" : " (given)"));
+        }
+      }
+    }
+    return fmt::format("change of {}, by {}", fmt::join(all, " and of "), fmt::join(used, " and "));
+  }
+
   // Same space: plain, by alias, or a composite member by member.
   void direct(const Prototype& from, const Prototype& to, const Space& space,
               Segment& segment) const {

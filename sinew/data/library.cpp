@@ -15,6 +15,7 @@ LibraryBuilder::LibraryBuilder(const Declarations& declarations, const TypeSourc
 Library LibraryBuilder::build() {
   read_domains();
   read_formulas();
+  read_changes();
   read_algebraics();
   read_aliases();
   read_units();
@@ -27,7 +28,10 @@ Library LibraryBuilder::build() {
   read_prototypes();
   read_views();
   read_functions();
+  read_function_views();
+  finish_views();
   read_conversions();
+  read_relations();
   sort_by_name();
   close_over_formulas();
   check_dimensions();
@@ -94,6 +98,9 @@ void LibraryBuilder::sort_by_name() {
     prototype.owner = place[prototype.owner];
     for (Binding& binding : prototype.bindings) binding.space = space_place[binding.space];
     for (auto& [member, part] : prototype.members) part = place[part];
+    for (auto* space : {&prototype.taken_apart, &prototype.put_together}) {
+      if (*space) *space = space_place[**space];
+    }
     prototypes.push_back(std::move(prototype));
   }
   library_.prototypes = std::move(prototypes);
@@ -117,6 +124,14 @@ void LibraryBuilder::sort_by_name() {
     edge.to = place[edge.to];
     edge.function = function_place[edge.function];
   }
+  for (Relation& relation : library_.relations) {
+    relation.prototype = place[relation.prototype];
+    relation.space = space_place[relation.space];
+  }
+  std::sort(library_.relations.begin(), library_.relations.end(),
+            [](const Relation& a, const Relation& b) {
+              return std::tie(a.frame, a.reference) < std::tie(b.frame, b.reference);
+            });
   std::sort(library_.function_edges.begin(), library_.function_edges.end(),
             [](const FunctionEdge& a, const FunctionEdge& b) {
               return std::tie(a.from, a.to, a.function) < std::tie(b.from, b.to, b.function);
@@ -124,6 +139,11 @@ void LibraryBuilder::sort_by_name() {
 }
 
 void LibraryBuilder::index() {
+  for (Index i = 0; i < library_.spaces.size(); ++i) {
+    const Space& space = library_.spaces[i];
+    if (!space.composed())
+      library_.alike[{space.domain, space.semantic, space.coordinates}].push_back(i);
+  }
   library_.bound_to.resize(library_.spaces.size());
   for (Index i = 0; i < library_.prototypes.size(); ++i) {
     for (Index b = 0; b < library_.prototypes[i].bindings.size(); ++b) {

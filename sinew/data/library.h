@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "sinew/base/error.h"
@@ -71,6 +72,9 @@ struct Prototype {
   std::vector<ConstantWrite> constants;
   std::vector<std::pair<std::string, Index>>
       members;  // composed or viewed: member and its prototype
+  // Where some members are viewed by functions: the composed space of the parts that can be read
+  // and, if each can also be written, of those. The other prototypes with members are bound to it.
+  std::optional<Index> taken_apart, put_together;
 };
 
 // How the mangled names of C++ functions begin; such a symbol can be called like one of C.
@@ -80,7 +84,8 @@ struct Function {
   std::string name, context, library, symbol, header;
   struct Argument {
     std::size_t position = 0;
-    bool input = false;
+    bool input = false;     // false as well where the function changes what is there
+    bool in_place = false;  // changes what is there
     Index prototype = 0;
   };
   std::vector<Argument> arguments;                       // by position
@@ -113,6 +118,33 @@ struct FunctionEdge {
   std::vector<Index> formulas;  // context "coordinates": the formula edges that it stands for
 };
 
+// How one frame is related to another: the value of a prototype, in the coordinates in which the
+// domain computes with relations.
+struct Relation {
+  std::string frame, reference;
+  std::string domain;
+  Index prototype = 0;
+  Index space = 0;
+  bool constant = false;
+  std::map<std::string, double> values;  // of a constant, by the access's source
+  Place place;
+  std::string name() const { return frame + " in " + reference; }
+};
+struct RelationRule {
+  std::string coordinates, semantic;
+  std::vector<Space::Slot> slots;
+  Formula identity, inverse, product;
+};
+// What a value becomes when one convention changes. The formula's inputs are the value's slots,
+// then for each input the slots of its relation.
+struct ConventionChange {
+  std::string convention;
+  Formula formula;
+  std::vector<ChangeInput> inputs;
+  std::string needs;  // what is missing where there is no formula
+  int cost = 0;
+};
+
 struct Library {
   std::vector<Prototype> prototypes;
   std::vector<Space> spaces;
@@ -122,6 +154,15 @@ struct Library {
   std::vector<FunctionEdge> function_edges;
   std::vector<Problem> warnings;
 
+  std::map<std::string, RelationRule> relation_rules;  // by domain
+  std::vector<Relation> relations;                     // ordered by frame, then reference
+  // By domain, meaning, coordinates and convention.
+  using ChangeKey = std::tuple<std::string, std::string, std::string, std::string>;
+  std::map<ChangeKey, ConventionChange> changes;
+  // Spaces that differ in their conventions alone.
+  using CoordinatesKey = std::tuple<std::string, std::string, std::string>;
+  std::map<CoordinatesKey, std::vector<Index>> alike;
+
   // For each space: the bindings that lead into it (prototype, its binding), ordered by prototype.
   std::vector<std::vector<std::pair<Index, Index>>> bound_to;
   std::vector<std::vector<Index>> formulas_from;   // edges by their start
@@ -130,6 +171,13 @@ struct Library {
   std::optional<Index> find_prototype(const std::string& name) const;
   std::optional<Index> find_space(const std::string& key) const;
 };
+
+// "expressed_in=base, reference_point=tool" by name, and back.
+std::string join_convention(const std::map<std::string, std::string>& convention);
+std::map<std::string, std::string> split_convention(const std::string& convention);
+// Of a space; of a composed one that of its members together, where they agree.
+struct Library;
+std::string convention_of(const Library& library, Index space);
 
 // The cost of one step whose function declares none, in additions.
 constexpr int kUnknownFunctionCost = 1000;

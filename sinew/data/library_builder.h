@@ -25,8 +25,9 @@ struct Domain {
   std::map<std::pair<std::string, std::string>, Coordinates> coordinates;  // by semantic and name
   bool has_coordinates_for(const std::string& semantic) const;
   std::vector<std::string> coordinates_of(const std::string& semantic) const;
-  // The conventions that prototypes of this meaning have to state.
+  // The conventions that prototypes of this meaning state; those that they have to.
   std::vector<std::string> conventions_of(const std::string& semantic) const;
+  bool is_optional(const std::string& convention, const std::string& semantic) const;
   // Nothing when the annotation is not declared.
   const AnnotationDeclaration* annotation(const std::string& name) const;
 };
@@ -72,6 +73,7 @@ class LibraryBuilder {
   // The sound prototype of this name, read now if it was not yet; nothing if there is none.
   std::optional<Index> require_prototype(const std::string& name);
   void read_prototype(const PrototypeDeclaration& declaration);
+  bool is_viewed_by_functions(const PrototypeDeclaration& declaration) const;
   bool read_plain(const PrototypeDeclaration& declaration, const Domain& domain,
                   Prototype& prototype);
   bool read_composite(const PrototypeDeclaration& declaration, const Domain& domain,
@@ -92,8 +94,20 @@ class LibraryBuilder {
 
   // check_views.cpp
   void read_views();
+  // The meaning that the view is of, if it is a member of the whole's.
+  bool check_member(const ViewDeclaration& view, const Prototype& owner);
   std::optional<Index> read_view(const ViewDeclaration& declaration, Index whole,
                                  std::set<std::size_t>& covered);
+
+  void read_function_views();
+  // Members that are all viewed make the prototype a composite.
+  void finish_views();
+
+  // check_relations.cpp
+  void read_changes();
+  void read_relation_rule(const Domain& domain, const RelationRuleDeclaration& declaration);
+  void read_change(const Domain& domain, const ChangeDeclaration& declaration);
+  void read_relations();
 
   // check_functions.cpp
   void read_functions();
@@ -142,13 +156,16 @@ class LibraryBuilder {
   std::map<std::string, Index> prototypes_;  // those that are sound
   std::set<std::string> open_prototypes_, unsound_prototypes_;
   std::map<Index, PlainElements> plain_elements_;
+  struct View {
+    Index part = 0;
+    bool readable = false, writable = false;
+    std::optional<Index> read_as, written_from;  // prototypes, where functions do it
+  };
+  std::map<Index, std::map<std::string, View>> views_;  // by whole and member
+  std::map<Index, std::set<std::size_t>> covered_;      // elements that views map
   std::map<std::string, Index> spaces_;
   std::map<std::string, Index> functions_;
 };
-
-// "name=value, name=value" in order of the names, and back.
-std::string join_convention(const std::map<std::string, std::string>& convention);
-std::map<std::string, std::string> split_convention(const std::string& convention);
 
 template <typename Map>
 std::vector<std::string> names_of(const Map& map) {

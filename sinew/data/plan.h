@@ -22,6 +22,17 @@ struct PlanOptions {
 
 struct Plan;
 
+// A relation that a change of conventions computes with: links from one frame to the other, the
+// first of which begins at `of`. None: the frame itself.
+struct RelationLink {
+  Index relation = 0;
+  bool inverse = false;
+};
+struct ConventionStep {
+  std::string convention, from, to;
+  std::vector<std::vector<RelationLink>> inputs;  // by input of the change
+};
+
 // One edge of the chain. `from` and `to` count prototypes or spaces, as the kind says.
 struct PlanStep {
   enum class Kind : std::uint8_t {
@@ -30,6 +41,9 @@ struct PlanStep {
     kFormula,   // space to space
     kMembers,   // composed space to composed space, member by member
     kFunction,  // prototype to prototype
+    kApart,     // prototype to composed space, a plan for each part
+    kTogether,  // composed space to prototype, likewise
+    kChange,    // space to space, of other conventions
   };
   Kind kind;
   Index from = 0, to = 0;
@@ -37,14 +51,23 @@ struct PlanStep {
   int cost = 0;
   std::string loses;
   std::vector<Plan>
-      members;  // of kMembers: a chain from space to space for each member, perhaps empty
+      members;  // of kMembers, kApart and kTogether: a chain for each member, perhaps empty
+  std::vector<ConventionStep> changes;
 };
 
 struct Plan {
   Index source = 0, target = 0;  // prototypes; of a member's plan spaces
   std::vector<PlanStep> steps;
   int cost = 0;
+  // The relations that are needed, in order, and how each gets from its prototype to the space in
+  // which it is used.
+  std::vector<Index> relations;
+  std::vector<Plan> relation_plans;
 };
+
+// The relations whose values have to be given when the conversion runs, in the order in which it
+// takes them.
+std::vector<Index> inputs_of(const Library& library, const Plan& plan);
 
 // The conversion types of the source's Table I.
 enum class ConversionType : std::uint8_t {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <optional>
 
 namespace sinew::data {
@@ -21,7 +22,16 @@ class Lowering {
   Lowering(const Library& library, const Plan& plan) : library_(library) {
     program_.blocks = {{"source", library.prototypes[plan.source].owner},
                        {"target", library.prototypes[plan.target].owner}};
+    for (const Index relation : inputs_of(library, plan)) {
+      input_blocks_[relation] = program_.blocks.size();
+      const Relation& it = library.relations[relation];
+      program_.blocks.push_back({identifier(it.frame + "_in_" + it.reference), it.prototype});
+      ++program_.inputs;
+    }
     program_.stages.emplace_back();
+    for (std::size_t i = 0; i < plan.relations.size(); ++i) {
+      relation_plans_[plan.relations[i]] = &plan.relation_plans[i];
+    }
     State state;
     state.block = 0;
     state.prototype = plan.source;
@@ -36,7 +46,13 @@ class Lowering {
     std::optional<Index> space;
     Index block = 0;
     Index prototype = 0;
+    const Relation* constant = nullptr;  // whose numbers are read, instead of a block
   };
+
+  static std::string identifier(std::string name) {
+    for (char& c : name) c = c == '.' || c == '-' ? '_' : c;
+    return name;
+  }
 
   void run(const Plan& plan, State& state, std::optional<Index> final_target) {
     for (std::size_t i = 0; i < plan.steps.size(); ++i) {
@@ -63,6 +79,15 @@ class Lowering {
         case Kind::kMembers:
           run_members(state, step);
           break;
+        case Kind::kApart:
+          take_apart(state, step);
+          break;
+        case Kind::kTogether:
+          put_together(state, step);
+          break;
+        case Kind::kChange:
+          change(state, step);
+          break;
         case Kind::kFunction:
           if (is_of_coordinates(step)) {
             apply_coordinates(state, step);
@@ -81,8 +106,7 @@ class Lowering {
   }
 
   Index new_block(Index prototype) {
-    std::string name = library_.prototypes[prototype].name;
-    for (char& c : name) c = c == '.' || c == '-' ? '_' : c;
+    const std::string name = identifier(library_.prototypes[prototype].name);
     program_.blocks.push_back({fmt::format("{}_{}", name, program_.blocks.size()), prototype});
     return program_.blocks.size() - 1;
   }
@@ -96,8 +120,10 @@ class Lowering {
         state.values[i].node = program_.graph.constant(*space.slots[i].constant);
     }
     for (const SlotBinding& slot : binding.slots) {
-      state.values[slot.slot] = {load(state.block, slot.access, space.slots[slot.slot].name),
-                                 slot.scale, slot.offset};
+      const Node number =
+          state.constant ? program_.graph.constant(state.constant->values.at(slot.access.source))
+                         : load(state.block, slot.access, space.slots[slot.slot].name);
+      state.values[slot.slot] = {number, slot.scale, slot.offset};
     }
     state.space = binding.space;
   }
@@ -143,15 +169,10 @@ class Lowering {
     std::vector<Node> inputs;
     for (const Value& value : state.values)
       inputs.push_back(affine(value.node, value.scale, value.offset));
-    const std::vector<Node> places = program_.graph.append(formula.graph, inputs);
     const Space& space = library_.spaces[edge.to];
     state.values.clear();
-    std::size_t next = 0;
-    for (const Space::Slot& slot : space.slots) {
-      state.values.push_back({slot.constant ? program_.graph.constant(*slot.constant)
-                                            : places[formula.outputs[next++]],
-                              1, 0});
-    }
+    for (const Node node : apply(formula, inputs, space.slots))
+      state.values.push_back({node, 1, 0});
     state.space = edge.to;
   }
 
@@ -180,6 +201,113 @@ class Lowering {
     state.space = step.to;
   }
 
+  // ---- parts that functions reach ----
+
+  void take_apart(State& state, const PlanStep& step) {
+    const auto& members = library_.prototypes[step.from].members;
+    std::vector<Value> result;
+    for (std::size_t m = 0; m < step.members.size(); ++m) {
+      State part;
+      part.block = state.block;
+      part.prototype = members[m].second;
+      run(step.members[m], part, std::nullopt);
+      result.insert(result.end(), part.values.begin(), part.values.end());
+    }
+    state.values = std::move(result);
+    state.space = step.to;
+  }
+
+  void put_together(State& state, const PlanStep& step) {
+    const Space& from = library_.spaces[step.from];
+    const Prototype& whole = library_.prototypes[step.to];
+    for (const ConstantWrite& constant : whole.constants) {
+      program_.stages.back().stores.push_back(
+          {1, constant.access, program_.graph.constant(constant.value)});
+    }
+    std::size_t first = 0;
+    for (std::size_t m = 0; m < step.members.size(); ++m) {
+      const std::size_t count = library_.spaces[from.members[m].second].slots.size();
+      State part;
+      part.values.assign(state.values.begin() + static_cast<std::ptrdiff_t>(first),
+                         state.values.begin() + static_cast<std::ptrdiff_t>(first + count));
+      part.space = from.members[m].second;
+      run(step.members[m], part, whole.members[m].second);
+      first += count;
+    }
+    state.space.reset();
+    state.block = 1;
+    state.prototype = step.to;
+  }
+
+  // ---- changes of conventions ----
+
+  // A formula's results in the order of the slots, those that are constant among them.
+  std::vector<Node> apply(const Formula& formula, const std::vector<Node>& inputs,
+                          const std::vector<Space::Slot>& slots) {
+    const std::vector<Node> places = program_.graph.append(formula.graph, inputs);
+    std::vector<Node> results;
+    std::size_t next = 0;
+    for (const Space::Slot& slot : slots) {
+      results.push_back(slot.constant ? program_.graph.constant(*slot.constant)
+                                      : places[formula.outputs[next++]]);
+    }
+    return results;
+  }
+
+  const std::vector<Node>& relation(Index index) {
+    const auto [known, added] = relation_nodes_.try_emplace(index);
+    if (!added) return known->second;
+    const Relation& it = library_.relations[index];
+    State state;
+    state.prototype = it.prototype;
+    if (it.constant) {
+      state.constant = &it;
+    } else {
+      state.block = input_blocks_.at(index);
+    }
+    run(*relation_plans_.at(index), state, std::nullopt);
+    for (const Value& value : state.values) {
+      known->second.push_back(affine(value.node, value.scale, value.offset));
+    }
+    return known->second;
+  }
+
+  // The relation of the chain's first frame to its last: X_AC = X_AB X_BC.
+  std::vector<Node> chain(const RelationRule& rule, const std::vector<RelationLink>& links) {
+    std::vector<Node> whole;
+    for (const RelationLink& link : links) {
+      std::vector<Node> next = relation(link.relation);
+      if (link.inverse) next = apply(rule.inverse, next, rule.slots);
+      if (!whole.empty()) {
+        next.insert(next.end(), whole.begin(), whole.end());
+        next = apply(rule.product, next, rule.slots);
+      }
+      whole = std::move(next);
+    }
+    return whole.empty() ? apply(rule.identity, {}, rule.slots) : whole;
+  }
+
+  void change(State& state, const PlanStep& step) {
+    const Space& space = library_.spaces[step.from];
+    for (const ConventionStep& it : step.changes) {
+      const ConventionChange& change =
+          library_.changes.at({space.domain, space.semantic, space.coordinates, it.convention});
+      std::vector<Node> inputs;
+      for (const Value& value : state.values) {
+        inputs.push_back(affine(value.node, value.scale, value.offset));
+      }
+      for (const auto& links : it.inputs) {
+        const auto nodes = chain(library_.relation_rules.at(space.domain), links);
+        inputs.insert(inputs.end(), nodes.begin(), nodes.end());
+      }
+      state.values.clear();
+      for (const Node node : apply(change.formula, inputs, space.slots)) {
+        state.values.push_back({node, 1, 0});
+      }
+    }
+    state.space = step.to;
+  }
+
   void call(State& state, const PlanStep& step, Index target_block) {
     const FunctionEdge& edge = library_.function_edges[step.which];
     const Function& function = library_.functions[edge.function];
@@ -196,6 +324,9 @@ class Lowering {
 
   const Library& library_;
   ConversionProgram program_;
+  std::map<Index, Index> input_blocks_;          // by relation
+  std::map<Index, const Plan*> relation_plans_;  // likewise
+  std::map<Index, std::vector<Node>> relation_nodes_;
 };
 
 }  // namespace

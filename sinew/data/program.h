@@ -15,8 +15,8 @@
 namespace sinew::data {
 
 struct ConversionProgram {
-  // Memory that is read or written: 0 is the source, 1 the target, then intermediate values of
-  // functions.
+  // Memory that is read or written: 0 is the source, 1 the target, then the relations between
+  // frames that are given, then intermediate values of functions.
   struct Block {
     std::string name;     // for source code
     Index prototype = 0;  // whose representation it has
@@ -42,6 +42,8 @@ struct ConversionProgram {
     std::vector<Call> calls;
   };
   std::vector<Block> blocks;
+  std::size_t inputs = 0;  // how many relations are given
+  bool is_parameter(Index block) const { return block < 2 + inputs; }
   std::vector<Load> loads;
   ScalarGraph graph;
   std::vector<Stage> stages;

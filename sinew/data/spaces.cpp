@@ -29,6 +29,19 @@ std::map<std::string, std::string> split_convention(const std::string& conventio
   return result;
 }
 
+std::string convention_of(const Library& library, Index index) {
+  const Space& space = library.spaces[index];
+  if (!space.composed()) return space.convention;
+  std::map<std::string, std::string> all;
+  for (const auto& [member, part] : space.members) {
+    for (const auto& [name, value] : split_convention(convention_of(library, part))) {
+      const auto [known, added] = all.emplace(name, value);
+      if (!added && known->second != value) known->second += " and " + value;
+    }
+  }
+  return join_convention(all);
+}
+
 Index LibraryBuilder::plain_space(const std::string& domain, const std::string& semantic,
                                   const std::string& coordinates, const std::string& convention) {
   std::string key = fmt::format("{}.{} {}", domain, semantic, coordinates);
@@ -100,14 +113,24 @@ std::optional<Index> LibraryBuilder::formula_target(const FormulaDeclaration& fo
         if (convention.try_emplace(name, value).first->second != value) return std::nullopt;
       }
     }
+    // What one part states and another leaves open is not known of the whole.
+    for (const auto& [member, index] : from.members) {
+      const auto stated = split_convention(library_.spaces[index].convention);
+      for (const std::string& name : domain.conventions_of(member)) {
+        if (convention.count(name) && !stated.count(name)) return std::nullopt;
+      }
+    }
   }
   const std::string& name = domain.declaration->name;
   const auto convention_of = [&](const std::string& semantic) {
     std::map<std::string, std::string> needed;
     for (const std::string& asked : domain.conventions_of(semantic)) {
       const auto value = convention.find(asked);
-      if (value == convention.end()) return std::optional<std::string>();
-      needed.insert(*value);
+      if (value != convention.end()) {
+        needed.insert(*value);
+      } else if (!domain.is_optional(asked, semantic)) {
+        return std::optional<std::string>();
+      }
     }
     return std::optional(join_convention(needed));
   };
@@ -267,14 +290,17 @@ std::vector<Index> LibraryBuilder::formula_path(Index from, Index to) const {
 void LibraryBuilder::follow_coordinate_functions() {
   std::set<std::pair<Index, Index>> replaced;
   for (FunctionEdge& edge : library_.function_edges) {
-    const Index from = library_.prototypes[edge.from].bindings.front().space;
-    const Index to = library_.prototypes[edge.to].bindings.front().space;
-    if (edge.loses.empty()) replaced.insert({from, to});
-    bool back = !formula_path(to, from).empty();
+    bool back = false;
     for (const FunctionEdge& other : library_.function_edges) {
       back |= other.from == edge.to && other.to == edge.from;
     }
     edge.one_way = !back;
+    // A part that only functions reach is in no space.
+    const auto &source = library_.prototypes[edge.from], &target = library_.prototypes[edge.to];
+    if (source.bindings.empty() || target.bindings.empty()) continue;
+    const Index from = source.bindings.front().space, to = target.bindings.front().space;
+    if (edge.loses.empty()) replaced.insert({from, to});
+    edge.one_way &= formula_path(to, from).empty();
     const Function& function = library_.functions[edge.function];
     if (function.context != "coordinates") continue;
     edge.formulas = formula_path(from, to);

@@ -68,6 +68,13 @@ std::string compile_and_run(const Emitted& emitted) {
   return messages + run((folder.path / "main").string()).first;
 }
 
+std::string compile_library(const std::filesystem::path& folder, const std::string& source,
+                            const std::string& library) {
+  return run(fmt::format("cd {} && {} -std=c++17 -O1 -shared -fPIC {} -o {}", folder.string(),
+                         SINEW_CXX_COMPILER, source, library))
+      .first;
+}
+
 bool run_asn1c(const std::filesystem::path& module, const std::filesystem::path& folder) {
   if (!run("which asn1c").second) return false;
   return run(fmt::format("cd {} && asn1c -fcompound-names {}", folder.string(), module.string()))

@@ -28,6 +28,10 @@ struct Emitted {
 // Everything that was printed; "ok" when all checks held.
 std::string compile_and_run(const Emitted& emitted);
 
+// Compiles a source file of the folder to a library there; gives what the compiler says.
+std::string compile_library(const std::filesystem::path& folder, const std::string& source,
+                            const std::string& library);
+
 // Runs asn1c on a module; the folder then holds its headers. False where asn1c is not installed.
 bool run_asn1c(const std::filesystem::path& module, const std::filesystem::path& folder);
 
