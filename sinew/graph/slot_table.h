@@ -90,6 +90,7 @@ class SlotTable {
 
  private:
   static constexpr std::uint32_t kFirstMask = 255;
+  static constexpr std::uint32_t kLargeMask = 0xFFFF;  // below it, tables grow by four
   struct Table {
     explicit Table(std::uint32_t last)
         : mask(last), slots(static_cast<std::atomic<std::uint64_t>*>(allocate_zeroed(bytes()))) {}
@@ -123,7 +124,7 @@ class SlotTable {
   void publish() { table_.store(tables_.back().get(), std::memory_order_release); }
   void grow() {
     const Table* old = table_.load(std::memory_order_relaxed);
-    install(old->mask * 2 + 1);
+    install(old->mask < kLargeMask ? old->mask * 4 + 3 : old->mask * 2 + 1);
     ++growths_;
     used_ = 0;
     for (std::size_t at = 0; at <= old->mask; ++at) {
