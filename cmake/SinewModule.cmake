@@ -5,7 +5,9 @@
 #   sinew_module(graph DEPENDS base [LIBRARIES fmt::fmt])          every .cpp of the folder
 #   sinew_module(rdf_turtle FOLDER rdf/turtle DEPENDS graph)       a layer of a module: its own target
 #   sinew_test(graph_test MODULES graph SOURCES test/*.cpp)        GoogleTest, registered with CTest
-#   sinew_fuzz(fuzz_turtle MODULES rdf_turtle SOURCES fuzz/x.cpp)  libFuzzer, when SINEW_FUZZ is on
+#   sinew_fuzz(fuzz_turtle MODULES rdf_turtle SOURCES fuzz/x.cpp SEEDS examples/*.ttl)
+#                                                                  libFuzzer, when SINEW_FUZZ is on; the
+#                                                                  patterns are searched recursively
 
 function(sinew_module name)
   cmake_parse_arguments(arg "" "FOLDER" "DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
@@ -72,10 +74,24 @@ function(sinew_fuzz name)
   if(NOT SINEW_FUZZ)
     return()
   endif()
-  cmake_parse_arguments(arg "" "" "MODULES;SOURCES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "MODULES;SOURCES;SEEDS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   list(TRANSFORM arg_MODULES PREPEND sinew_)
   target_link_libraries(${name} PRIVATE sinew_options ${arg_MODULES} -fsanitize=fuzzer)
+  # What the fuzzer begins with, for -seed_inputs=@FILE. Large files slow it down more than they help.
+  set(seeds)
+  foreach(pattern IN LISTS arg_SEEDS)
+    cmake_path(ABSOLUTE_PATH pattern BASE_DIRECTORY "${PROJECT_SOURCE_DIR}")
+    file(GLOB_RECURSE files "${pattern}")
+    foreach(file IN LISTS files)
+      file(SIZE "${file}" bytes)
+      if(bytes GREATER 0 AND bytes LESS 20000 AND NOT file MATCHES ",")
+        list(APPEND seeds "${file}")
+      endif()
+    endforeach()
+  endforeach()
+  list(JOIN seeds "," seeds)
+  file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/${name}.seeds" "${seeds}")
 endfunction()
 
 # Where robots, published models and test suites lie; tests that need them say so and skip without.
