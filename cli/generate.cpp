@@ -40,6 +40,9 @@ int run_generate(Arguments arguments) {
   app.add_option("--held", partial.held,
                  "Data blocks that are kept between updates (a name, its first part, or a "
                  "quantity; may be repeated): evaluations use their value of the last update");
+  bool no_limbs = false;
+  app.add_flag("--no-limbs", no_limbs,
+               "Compute limbs that are alike one by one, not side by side in vectors");
   bool trace = false;
   app.add_flag("--trace", trace, "Write what each optimisation pass does to standard error");
   app.add_option("-o,--output", folder, "Folder for the files")->capture_default_str();
@@ -59,6 +62,7 @@ int run_generate(Arguments arguments) {
   options.scalar = scalar == "float" ? backend::Scalar::kFloat : backend::Scalar::kDouble;
   options.language = target == "cuda" ? backend::Language::kCuda : backend::Language::kC;
   options.partial = partial;
+  options.limbs = !no_limbs;
   if (trace) {
     options.passes.trace = [](const program::PassReport& report) {
       std::cerr << program::to_string(report) << '\n';

@@ -1,5 +1,6 @@
 // The flat style: the whole program as straight-line code on numbers.
 #include "sinew/backend/c_flat_body.h"
+#include "sinew/backend/c_flat_limbs.h"
 #include "sinew/backend/c_parts.h"
 #include "sinew/backend/numbers.h"
 
@@ -7,13 +8,15 @@ namespace sinew::backend {
 namespace {
 
 // Everything that is defined once for each kind of processor.
-FieldList renamed(const std::string& name, std::initializer_list<const FlatBody*> bodies) {
+FieldList renamed(const std::string& name, std::initializer_list<const FlatBody*> bodies,
+                  const std::vector<unsigned>& limb_widths) {
   std::vector<std::string> shorts = {"lanes",  "angles", "floats",        "bits",
                                      "sincos", "far",    "sincos_all",    "squares",
                                      "sample", "block",  "update_numbers"};
   for (const FlatBody* body : bodies) {
     shorts.insert(shorts.end(), body->part_names.begin(), body->part_names.end());
   }
+  for (const unsigned width : limb_widths) shorts.push_back("limbs" + std::to_string(width));
   FieldList list;
   for (const std::string& text : shorts) {
     Fields item;
@@ -30,7 +33,7 @@ using Blocks = std::vector<std::pair<std::string, const CodeBlock*>>;
 
 RenderedSource flat_source(const program::ScalarProgram& scalar,
                            const program::Interface& interface, const Fields& common,
-                           const COptions& options) {
+                           const COptions& options, const program::LimbProgram* limbs) {
   Fields fields = common;
   const std::string name = options.name;
   fields.text("NAME", upper_case(name));
@@ -70,17 +73,28 @@ RenderedSource flat_source(const program::ScalarProgram& scalar,
   }
   const FlatBody sample = body(FlatForm::kSample);
   const FlatBody block = body(FlatForm::kBlock);
-  fields.list("renamed", renamed(name, {&sample, &block, &update}));
+  const bool has_limbs = limbs != nullptr;
+  LimbBody side_by_side;
+  if (has_limbs) side_by_side = limb_body(*limbs, layout, flat);
+  fields.section("limbs", has_limbs);
+  FieldList limb_types;
+  for (const unsigned width : side_by_side.widths) {
+    Fields type;
+    type.number("width", width);
+    limb_types.push_back(std::move(type));
+  }
+  fields.list("limb_types", std::move(limb_types));
+  fields.list("renamed", renamed(name, {&sample, &block, &update}, side_by_side.widths));
   fields.section("has_angles", sample.angles + update.angles > 0);
   if (sample.angles + update.angles > 0) {
     fields.text("sincos", render("c/sincos.c.mustache", fields));
   }
+  Blocks blocks = {{"parts", &sample.parts}, {"lanes_parts", &block.parts}};
+  if (has_limbs) blocks.push_back({"limbs_body", &side_by_side.code});
+  blocks.push_back({"body", &sample.code});
+  blocks.push_back({"lanes_body", &block.code});
   return render_with_blocks("c/flat.c.mustache", std::move(fields),
-                            with_update({{"parts", &sample.parts},
-                                         {"lanes_parts", &block.parts},
-                                         {"body", &sample.code},
-                                         {"lanes_body", &block.code}},
-                                        2));
+                            with_update(std::move(blocks), 2));
 }
 
 }  // namespace sinew::backend

@@ -86,20 +86,7 @@ class Emitter {
     return fmt::format("{} + {} * n", place.array, place.index);
   }
 
-  // Throws Error where a float cannot hold it.
-  std::string number(double value) const {
-    if (options_.scalar == Scalar::kDouble) return c_number(value);
-    const auto rounded = static_cast<float>(value);
-    if (!std::isfinite(rounded) || (value != 0.0 && std::abs(rounded) < FLT_MIN)) {
-      throw Error(Problem{{},
-                          {},
-                          fmt::format("a float cannot hold the constant {}", c_number(value)),
-                          "use double",
-                          Severity::kError,
-                          {}});
-    }
-    return c_number(rounded) + "f";
-  }
+  std::string number(double value) const { return scalar_number(value, options_.scalar); }
 
   void line(const std::string& text, std::uint32_t origin = program::kNoOrigin) {
     block_->add("  " + text, origin);
@@ -445,6 +432,20 @@ class Emitter {
 };
 
 }  // namespace
+
+std::string scalar_number(double value, Scalar scalar) {
+  if (scalar == Scalar::kDouble) return c_number(value);
+  const auto rounded = static_cast<float>(value);
+  if (!std::isfinite(rounded) || (value != 0.0 && std::abs(rounded) < FLT_MIN)) {
+    throw Error(Problem{{},
+                        {},
+                        fmt::format("a float cannot hold the constant {}", c_number(value)),
+                        "use double",
+                        Severity::kError,
+                        {}});
+  }
+  return c_number(rounded) + "f";
+}
 
 FlatBody flat_body(const Computation& computation, const FlatLayout& layout,
                    const FlatOptions& options) {

@@ -49,6 +49,9 @@ struct FlatBody {
 FlatBody flat_body(const program::Computation& computation, const FlatLayout& layout,
                    const FlatOptions& options);
 
+// A number of the scalar type as C source. Throws Error where a float cannot hold it.
+std::string scalar_number(double value, Scalar scalar);
+
 // The layout of a program's evaluation, and that of its update (all results go to `held`).
 FlatLayout evaluation_layout(const program::Program& program, const program::Interface& interface,
                              const program::Computation& evaluation);

@@ -10,6 +10,7 @@
 #include "sinew/backend/render.h"
 #include "sinew/program/dag/dag.h"
 #include "sinew/program/interface.h"
+#include "sinew/program/limbs/limb_program.h"
 #include "sinew/program/program.h"
 #include "sinew/program/scalar_program.h"
 
@@ -48,9 +49,10 @@ Fields common_fields(const program::ScalarProgram& scalar, const program::Interf
 // A distinct C identifier for each variable of the program.
 std::vector<std::string> variable_identifiers(const program::Program& program);
 
+// `limbs`: null where they are computed one by one.
 RenderedSource flat_source(const program::ScalarProgram& scalar,
                            const program::Interface& interface, const Fields& common,
-                           const COptions& options);
+                           const COptions& options, const program::LimbProgram* limbs);
 RenderedSource readable_source(const program::Program& program, const program::Interface& interface,
                                const Fields& common);
 

@@ -62,9 +62,28 @@ std::string banner(const COptions& options, const GeneratedCode& counts) {
   text += "; do not edit.";
   if (options.style == Style::kFlat) {
     text += "\n * One evaluation: " + operations(counts.operations) + ".";
+    if (counts.with_limbs) {
+      text += "\n * A single call has its limbs side by side: " + operations(*counts.with_limbs) +
+              ", of which most are on vectors.";
+    }
     if (!options.partial.empty()) text += "\n * One update: " + operations(counts.update) + ".";
   }
   return text;
+}
+
+// Very long functions are divided into parts instead.
+std::optional<program::LimbProgram> limbs_of(const program::ScalarProgram& scalar,
+                                             const program::OperationCount& operations,
+                                             const COptions& options) {
+  if (!options.limbs || options.language != Language::kC || !options.partial.empty() ||
+      !scalar.program.derivatives.empty()) {
+    return std::nullopt;
+  }
+  auto limbs = program::limb_program(scalar.program, operations, options.passes);
+  if (!limbs) return std::nullopt;
+  const program::OperationCount n = limbs->operations();
+  if (n.add + n.multiply > 2 * options.maximum_statements) return std::nullopt;
+  return limbs;
 }
 
 }  // namespace
@@ -203,10 +222,14 @@ GeneratedCode generate_c(const program::Program& program, const COptions& option
   GeneratedCode code;
   code.operations = program::count_operations(scalar.computation);
   code.update = program::count_operations(scalar.update);
+  const std::optional<program::LimbProgram> limbs =
+      options.style == Style::kFlat ? limbs_of(scalar, code.operations, options) : std::nullopt;
+  if (limbs) code.with_limbs = limbs->operations();
   const Fields common = common_fields(scalar, interface, options, code);
-  const RenderedSource source = options.style == Style::kFlat
-                                    ? flat_source(scalar, interface, common, options)
-                                    : readable_source(scalar.program, interface, common);
+  const RenderedSource source =
+      options.style == Style::kFlat
+          ? flat_source(scalar, interface, common, options, limbs ? &*limbs : nullptr)
+          : readable_source(scalar.program, interface, common);
   code.files.push_back({options.name + ".h",
                         render(cuda ? "c/header.cuda.mustache" : "c/header.h.mustache", common)});
   code.files.push_back({options.name + (cuda ? ".cu" : ".c"), source.text});

@@ -3,6 +3,7 @@
 // bytes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,7 +37,10 @@ struct COptions {
   Scalar scalar = Scalar::kDouble;
   Language language = Language::kC;
   program::OptimiseOptions passes;
-  program::PartialOptions partial;        // flat style only: what NAME_update computes
+  program::PartialOptions partial;  // flat style only: what NAME_update computes
+  // Limbs that are alike are computed side by side where that pays (program/limbs), in single calls
+  // of flat C.
+  bool limbs = true;
   std::size_t maximum_statements = 4000;  // of one flat function; more become several functions
 };
 
@@ -49,6 +53,8 @@ struct GeneratedCode {
   std::vector<SourceFile> files;       // NAME.h, NAME.c or NAME.cu, NAME.json
   program::OperationCount operations;  // of one evaluation of the flat style
   program::OperationCount update;      // of one call of NAME_update
+  // Where limbs are side by side: operations of a single call, one on a vector counted once.
+  std::optional<program::OperationCount> with_limbs;
 };
 
 // Throws Error if the program is not valid, the name cannot name a C function, a name in `partial`

@@ -106,6 +106,9 @@ std::string sidecar(const program::ScalarProgram& scalar, const program::Interfa
                    {"operations", operation_counts(counts.operations)},
                    {"closures", std::move(closures)},
                    {"lines", std::move(lines)}};
+  if (counts.with_limbs) {
+    document["operations-with-limbs"] = operation_counts(*counts.with_limbs);
+  }
   if (!options.partial.empty()) {
     document["held-size"] = scalar.update.results.size();
     document["slow"] = options.partial.slow;

@@ -1,0 +1,408 @@
+#include "sinew/program/limbs/limb_program.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+
+#include "sinew/program/interface.h"
+#include "sinew/program/kernels.h"
+#include "sinew/program/limbs/find_limbs.h"
+
+namespace sinew::program {
+namespace {
+
+// More lanes than a vector register has would be several vectors: that saves little.
+constexpr std::uint32_t kMaximumLanes = 8;
+constexpr double kLeastSaving = 0.2;
+
+using Sources = std::vector<LimbSource>;  // one for each lane
+
+LimbSource constant(double value) {
+  LimbSource source;
+  source.value = value;
+  return source;
+}
+
+LimbSource negated(LimbSource source) {
+  if (source.kind == LimbSource::Kind::kConstant) {
+    source.value = -source.value;
+  } else {
+    source.negative = !source.negative;
+  }
+  return source;
+}
+
+// A closure of the trunk, or corresponding closures of limbs.
+struct Unit {
+  std::uint32_t group = kTrunk;
+  std::vector<std::uint32_t> closures;  // one for each lane
+  std::uint32_t level = 0;
+};
+
+class Recorder {
+ public:
+  Recorder(const Program& program, const Limbs& limbs)
+      : program_(program), limbs_(limbs), home_(program.variables.size()) {}
+
+  LimbProgram run() {
+    arrange();
+    const Interface interface = interface_of(program_);
+    result_.inputs = interface.in_size;
+    place_inputs(interface.inputs);
+    for (const Unit& unit : units_) record(unit);
+    for (const Slot& slot : interface.outputs) {
+      for (std::uint32_t k = 0; k < program_.variables[slot.variable].size; ++k) {
+        result_.results.push_back(source_of(slot.variable, k));
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  // Where the numbers of a variable are.
+  struct Home {
+    std::uint32_t region = kTrunk;  // kTrunk: not computed
+    std::uint32_t lane = 0;
+    std::vector<Ref> refs;          // in the region's graph
+    std::vector<LimbSource> given;  // of inputs
+  };
+
+  // Units in the order of the schedule, each in the first region of its kind that can have it:
+  // levels count how often the way to it changes between trunk and limbs.
+  void arrange() {
+    std::vector<std::uint32_t> writer(program_.variables.size(), kTrunk);  // unit
+    std::vector<bool> done(program_.closures.size(), false);
+    // A row is in place when all its closures are.
+    std::vector<std::vector<std::uint32_t>> missing;
+    for (const LimbGroup& group : limbs_.groups) {
+      missing.emplace_back(group.closures.size(), group.lanes);
+    }
+    for (const std::uint32_t index : program_.schedule) {
+      const std::uint32_t group = limbs_.group[index];
+      Unit unit;
+      unit.group = group;
+      if (group == kTrunk) {
+        unit.closures = {index};
+      } else {
+        if (--missing[group][limbs_.row[index]] > 0) continue;
+        unit.closures = limbs_.groups[group].closures[limbs_.row[index]];
+      }
+      units_.push_back(std::move(unit));
+    }
+    for (std::uint32_t u = 0; u < units_.size(); ++u) {
+      for_arguments(units_[u], [&](std::uint32_t variable, bool output, std::uint32_t) {
+        if (output) writer[variable] = u;
+      });
+    }
+    // A limb's closures may have been scheduled far apart: order the units by what they need.
+    std::vector<std::uint32_t> order;
+    std::vector<std::uint8_t> state(units_.size(), 0);
+    const auto visit = [&](std::uint32_t u, const auto& self) -> void {
+      if (state[u] == 2) return;
+      if (state[u] == 1) {
+        circular_ = true;
+        return;
+      }
+      state[u] = 1;
+      for_arguments(units_[u], [&](std::uint32_t variable, bool output, std::uint32_t) {
+        if (output || writer[variable] == kTrunk) return;
+        const std::uint32_t by = writer[variable];
+        self(by, self);
+        const std::uint32_t step = units_[by].group != units_[u].group ? 1 : 0;
+        units_[u].level = std::max(units_[u].level, units_[by].level + step);
+      });
+      state[u] = 2;
+      order.push_back(u);
+    };
+    for (std::uint32_t u = 0; u < units_.size(); ++u) visit(u, visit);
+    std::vector<Unit> sorted;
+    for (const std::uint32_t u : order) sorted.push_back(std::move(units_[u]));
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const Unit& a, const Unit& b) { return a.level < b.level; });
+    units_ = std::move(sorted);
+  }
+
+  template <typename Visit>
+  void for_arguments(const Unit& unit, Visit visit) const {
+    for (std::uint32_t lane = 0; lane < unit.closures.size(); ++lane) {
+      const Closure& closure = program_.closures[unit.closures[lane]];
+      const Kernel& kernel = *find_kernel(closure.operation);
+      for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
+        visit(closure.arguments[i], kernel.port(i, closure.arguments.size()).output, lane);
+      }
+    }
+  }
+
+  void place_inputs(const std::vector<Slot>& slots) {
+    for (const Slot& slot : slots) {
+      for (std::uint32_t k = 0; k < program_.variables[slot.variable].size; ++k) {
+        LimbSource source;
+        source.kind = LimbSource::Kind::kCaller;
+        source.index = slot.offset + k;
+        home_[slot.variable].given.push_back(source);
+      }
+    }
+  }
+
+  // The region of this level and kind.
+  std::uint32_t region_of(const Unit& unit) {
+    const auto [at, is_new] = region_index_.try_emplace(
+        {unit.level, unit.group}, static_cast<std::uint32_t>(result_.regions.size()));
+    if (is_new) {
+      LimbRegion region;
+      region.lanes = static_cast<std::uint32_t>(unit.closures.size());
+      result_.regions.push_back(std::move(region));
+      input_index_.emplace_back();
+      result_index_.emplace_back();
+    }
+    return at->second;
+  }
+
+  // A number of a variable, for whoever does not compute in the variable's own region.
+  LimbSource source_of(std::uint32_t variable, std::uint32_t k) {
+    const Variable& v = program_.variables[variable];
+    if (v.role == Role::kConstant) return constant(v.value[k]);
+    const Home& home = home_[variable];
+    if (home.region == kTrunk) return home.given[k];
+    LimbRegion& region = result_.regions[home.region];
+    const Ref ref = home.refs[k];
+    const Dag& dag = region.computation.dag;
+    if (dag.is_constant(ref)) return constant(dag.constant_value(ref));
+    if (dag.node(ref).op == Op::kInput) {
+      const LimbSource& source = region.inputs[dag.node(ref).index][home.lane];
+      // What the caller hands over has no sign: then the region hands it on.
+      if (!ref.negative()) return source;
+      if (source.kind != LimbSource::Kind::kCaller) return negated(source);
+    }
+    auto& results = region.computation.results;
+    const auto [at, is_new] = result_index_[home.region].try_emplace(
+        ref.node(), static_cast<std::uint32_t>(results.size()));
+    if (is_new) results.push_back(ref.magnitude());
+    LimbSource source;
+    source.kind = LimbSource::Kind::kRegion;
+    source.index = at->second;
+    source.region = home.region;
+    source.lane = home.lane;
+    source.negative = ref.negative();
+    return source;
+  }
+
+  // The number, one source for each lane, in a region's graph.
+  Traced in_region(std::uint32_t region, Sources sources) {
+    Dag& dag = result_.regions[region].computation.dag;
+    const auto equal = [&](const LimbSource& source) { return source == sources[0]; };
+    const bool all_constant = std::all_of(sources.begin(), sources.end(), [](const LimbSource& s) {
+      return s.kind == LimbSource::Kind::kConstant;
+    });
+    if (all_constant && std::all_of(sources.begin(), sources.end(), equal)) {
+      return Traced(sources[0].value);
+    }
+    // Vectors that differ in the sign of all lanes are one input.
+    const auto first = std::find_if(sources.begin(), sources.end(), [](const LimbSource& s) {
+      return s.kind != LimbSource::Kind::kConstant || s.value != 0.0;
+    });
+    const bool turn = all_constant ? first->value < 0
+                                   : std::all_of(sources.begin(), sources.end(),
+                                                 [](const LimbSource& s) { return s.negative; });
+    if (turn) {
+      for (LimbSource& source : sources) source = negated(source);
+    }
+    std::vector<std::uint64_t> key;
+    for (const LimbSource& s : sources) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &s.value, sizeof bits);
+      key.insert(key.end(),
+                 {static_cast<std::uint64_t>(s.kind),
+                  static_cast<std::uint64_t>(s.index) << 32U | s.region,
+                  static_cast<std::uint64_t>(s.lane) << 1U | (s.negative ? 1U : 0U), bits});
+    }
+    LimbRegion& in = result_.regions[region];
+    const auto [at, is_new] = input_index_[region].try_emplace(
+        std::move(key), static_cast<std::uint32_t>(in.inputs.size()));
+    if (is_new) in.inputs.push_back(std::move(sources));
+    const Ref ref = dag.input(at->second);
+    return Traced(dag, turn ? -ref : ref);
+  }
+
+  void record(const Unit& unit) {
+    const std::uint32_t region = region_of(unit);
+    const Closure& closure = program_.closures[unit.closures[0]];
+    const Kernel& kernel = *find_kernel(closure.operation);
+    const std::size_t count = closure.arguments.size();
+    std::vector<std::vector<Traced>> values(count);
+    std::vector<std::uint32_t> sizes;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t size = program_.variables[closure.arguments[i]].size;
+      sizes.push_back(size);
+      values[i].resize(size);
+      if (kernel.port(i, count).output) continue;
+      for (std::uint32_t k = 0; k < size; ++k) values[i][k] = read(unit, region, i, k);
+    }
+    std::vector<Traced*> arguments;
+    for (auto& value : values) arguments.push_back(value.data());
+    Dag& dag = result_.regions[region].computation.dag;
+    dag.set_origin(unit.closures[0]);
+    if (kernel.many()) {
+      kernel.trace_many(arguments.data(), sizes);
+    } else {
+      kernel.trace(arguments.data());
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!kernel.port(i, count).output) continue;
+      for (std::uint32_t lane = 0; lane < unit.closures.size(); ++lane) {
+        Home& home = home_[program_.closures[unit.closures[lane]].arguments[i]];
+        home.region = region;
+        home.lane = lane;
+        home.refs.clear();
+        for (const Traced& number : values[i]) home.refs.push_back(number.in(dag));
+      }
+    }
+  }
+
+  Traced read(const Unit& unit, std::uint32_t region, std::size_t argument, std::uint32_t k) {
+    // In its own region, lane by lane: the number itself.
+    bool own = true;
+    Sources sources;
+    for (std::uint32_t lane = 0; lane < unit.closures.size(); ++lane) {
+      const std::uint32_t variable = program_.closures[unit.closures[lane]].arguments[argument];
+      const Home& home = home_[variable];
+      own = own && home.region == region && home.lane == lane;
+    }
+    if (own) {
+      Dag& dag = result_.regions[region].computation.dag;
+      return Traced(dag, home_[program_.closures[unit.closures[0]].arguments[argument]].refs[k]);
+    }
+    for (const std::uint32_t closure : unit.closures) {
+      const std::uint32_t variable = program_.closures[closure].arguments[argument];
+      if (home_[variable].region == region) circular_ = true;
+      sources.push_back(source_of(variable, k));
+    }
+    return in_region(region, std::move(sources));
+  }
+
+ public:
+  // Whether some limb needs a result of another one on the way: then they are not side by side.
+  bool circular() const { return circular_; }
+
+ private:
+  const Program& program_;
+  const Limbs& limbs_;
+  std::vector<Unit> units_;
+  std::vector<Home> home_;  // by variable
+  LimbProgram result_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> region_index_;
+  std::vector<std::map<std::vector<std::uint64_t>, std::uint32_t>> input_index_;
+  std::vector<std::map<std::uint32_t, std::uint32_t>> result_index_;  // by node
+  bool circular_ = false;
+};
+
+// Optimises every region, the last one first, without what nobody needs.
+void optimise_regions(LimbProgram& program, const OptimiseOptions& options) {
+  std::vector<std::vector<bool>> wanted;
+  for (const LimbRegion& region : program.regions) {
+    wanted.emplace_back(region.computation.results.size(), false);
+  }
+  const auto want = [&](const LimbSource& source) {
+    if (source.kind == LimbSource::Kind::kRegion) wanted[source.region][source.index] = true;
+  };
+  for (const LimbSource& source : program.results) want(source);
+  std::vector<std::vector<std::uint32_t>> moved(program.regions.size());
+  for (std::size_t r = program.regions.size(); r-- > 0;) {
+    LimbRegion& region = program.regions[r];
+    std::vector<Ref> results;
+    moved[r].resize(wanted[r].size());
+    for (std::size_t k = 0; k < wanted[r].size(); ++k) {
+      if (!wanted[r][k]) continue;
+      moved[r][k] = static_cast<std::uint32_t>(results.size());
+      results.push_back(region.computation.results[k]);
+    }
+    region.computation.results = std::move(results);
+    region.computation.inputs = static_cast<std::uint32_t>(region.inputs.size());
+    region.computation = optimise(std::move(region.computation), options);
+    const std::vector<bool> live = live_nodes(region.computation);
+    for (std::uint32_t i = 0; i < region.computation.dag.size(); ++i) {
+      const Node& node = region.computation.dag.node(i);
+      if (!live[i] || node.op != Op::kInput) continue;
+      for (const LimbSource& source : region.inputs[node.index]) want(source);
+    }
+  }
+  const auto renumber = [&](LimbSource& source) {
+    if (source.kind == LimbSource::Kind::kRegion) source.index = moved[source.region][source.index];
+  };
+  for (LimbSource& source : program.results) renumber(source);
+  for (LimbRegion& region : program.regions) {
+    for (auto& sources : region.inputs) {
+      for (LimbSource& source : sources) renumber(source);
+    }
+  }
+}
+
+void add(OperationCount& sum, const OperationCount& more) {
+  sum.add += more.add;
+  sum.multiply += more.multiply;
+  sum.divide += more.divide;
+  sum.sqrt += more.sqrt;
+  sum.sincos += more.sincos;
+  sum.select += more.select;
+}
+
+double weight(const OperationCount& n) { return n.add + n.multiply + 5.0 * (n.divide + n.sqrt); }
+
+}  // namespace
+
+OperationCount LimbProgram::operations() const {
+  OperationCount sum;
+  for (const LimbRegion& region : regions) add(sum, count_operations(region.computation));
+  return sum;
+}
+
+std::optional<LimbProgram> limb_program(const Program& program, const OperationCount& scalar,
+                                        const OptimiseOptions& options) {
+  // A state has two values in one evaluation, before and after it is written: order matters.
+  if (interface_of(program).state_size > 0) return std::nullopt;
+  Limbs limbs = find_limbs(program);
+  // Groups that a vector cannot hold stay with the trunk.
+  for (std::uint32_t& group : limbs.group) {
+    if (group != kTrunk && limbs.groups[group].lanes > kMaximumLanes) group = kTrunk;
+  }
+  if (std::all_of(limbs.group.begin(), limbs.group.end(),
+                  [](std::uint32_t group) { return group == kTrunk; })) {
+    return std::nullopt;
+  }
+  Recorder recorder(program, limbs);
+  LimbProgram result = recorder.run();
+  if (recorder.circular()) return std::nullopt;
+  optimise_regions(result, options);
+  if (weight(result.operations()) > (1 - kLeastSaving) * weight(scalar)) return std::nullopt;
+  return result;
+}
+
+std::vector<double> evaluate(const LimbProgram& program, const std::vector<double>& inputs) {
+  std::vector<std::vector<std::vector<double>>> results;  // [region][lane][result]
+  const auto value = [&](const LimbSource& source) {
+    switch (source.kind) {
+      case LimbSource::Kind::kCaller:
+        return inputs[source.index];
+      case LimbSource::Kind::kConstant:
+        return source.value;
+      default: {
+        const double number = results[source.region][source.lane][source.index];
+        return source.negative ? -number : number;
+      }
+    }
+  };
+  for (const LimbRegion& region : program.regions) {
+    std::vector<std::vector<double>> lanes;
+    for (std::uint32_t lane = 0; lane < region.lanes; ++lane) {
+      std::vector<double> in;
+      for (const auto& sources : region.inputs) in.push_back(value(sources[lane]));
+      lanes.push_back(evaluate(region.computation, in));
+    }
+    results.push_back(std::move(lanes));
+  }
+  std::vector<double> out;
+  for (const LimbSource& source : program.results) out.push_back(value(source));
+  return out;
+}
+
+}  // namespace sinew::program

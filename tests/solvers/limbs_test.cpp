@@ -1,0 +1,114 @@
+// Limbs side by side compute what the program computes, one number at a time.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "compare.h"
+#include "question.h"
+#include "sinew/backend/c_target.h"
+#include "sinew/backend/compile.h"
+#include "sinew/backend/interpreter.h"
+#include "sinew/program/limbs/limb_program.h"
+#include "sinew/program/scalar_program.h"
+
+namespace sinew::test {
+namespace {
+
+Robot robot(const std::string& name) {
+  for (const Robot& r : published_robots()) {
+    if (r.name == name) return r;
+  }
+  return {};
+}
+
+struct Case {
+  std::string robot, solver;
+  bool floating;
+};
+
+const std::vector<Case> kCases = {{"clean/hyq.urdf", "rnea", true}, {"clean/hyq.urdf", "aba", true},
+                                  {"clean/hyq.urdf", "crba", true}, {"clean/hyq.urdf", "fpk", true},
+                                  {"hyq.urdf", "jacobian", true},   {"baxter.urdf", "rnea", false},
+                                  {"baxter.urdf", "aba", false}};
+
+TEST(Limbs, LegsAndArmsComputeSideBySideWhatTheyComputeOneByOne) {
+  if (published_robots().empty()) GTEST_SKIP() << "no robots in " SINEW_SHARED_DIR "/robots";
+  for (const Case& c : kCases) {
+    SCOPED_TRACE(c.solver + " " + c.robot);
+    const Question question(robot(c.robot), c.solver, c.floating);
+    const program::ScalarProgram scalar = program::scalar_program(question.program());
+    const auto count = program::count_operations(scalar.computation);
+    const auto limbs = program::limb_program(scalar.program, count);
+    ASSERT_TRUE(limbs.has_value());
+    // Four legs are a vector, two arms are half of one; what is left is the trunk.
+    const auto lanes = limbs->operations();
+    EXPECT_LT(lanes.add + lanes.multiply,
+              (c.floating ? 0.45 : 0.55) * (count.add + count.multiply));
+    backend::Interpreter interpreter(scalar.program);
+    std::mt19937 random(2);
+    std::uniform_real_distribution<> number(-1, 1);
+    for (int state = 0; state < 20; ++state) {
+      peers::Vector in(interpreter.in_size()), expected(interpreter.out_size());
+      for (double& x : in) x = number(random);
+      interpreter.evaluate(in.data(), expected.data());
+      EXPECT_LT(difference(program::evaluate(*limbs, in), expected), 1e-11);
+    }
+  }
+}
+
+TEST(Limbs, GeneratedCAgreesWithTheInterpreterUnderEveryCompilerAndProcessor) {
+  if (published_robots().empty()) GTEST_SKIP() << "no robots in " SINEW_SHARED_DIR "/robots";
+  // Compilers take long for long functions: three of the cases.
+  for (const Case& c : {kCases[0], kCases[2], kCases[5]}) {
+    SCOPED_TRACE(c.solver + " " + c.robot);
+    const Question question(robot(c.robot), c.solver, c.floating);
+    backend::COptions options;
+    options.name = "solver";
+    const backend::GeneratedCode code = generate_c(question.program(), options);
+    ASSERT_TRUE(code.with_limbs.has_value());
+    backend::Interpreter interpreter(question.program());
+    for (const std::vector<std::string>& compiler :
+         std::vector<std::vector<std::string>>{{"gcc", "-march=native"},
+                                               {"gcc", "-mtune=generic"},
+                                               {"clang-19", "-march=native"},
+                                               {"gcc", "-ffast-math"}}) {
+      backend::CompileOptions compile;
+      compile.compiler = compiler[0];
+      compile.flags = {"-O1", "-Wall", "-Wextra", "-Werror", "-std=c11", "-pedantic", compiler[1]};
+      const backend::LoadedCode loaded = compile_and_load(code, compile);
+      std::mt19937 random(2);
+      std::uniform_real_distribution<> number(-1, 1);
+      for (int state = 0; state < 100; ++state) {
+        peers::Vector in(interpreter.in_size()), expected(interpreter.out_size());
+        for (double& x : in) x = number(random);
+        if (state == 50) in[7] = 2e5;  // a sine that the C library computes
+        peers::Vector out(expected.size());
+        interpreter.evaluate(in.data(), expected.data());
+        loaded.function()(in.data(), out.data());
+        EXPECT_LT(difference(out, expected), 1e-11) << compiler[0] << " " << compiler[1];
+      }
+    }
+  }
+}
+
+TEST(Limbs, AreComputedOneByOneWhereThatIsAsked) {
+  if (published_robots().empty()) GTEST_SKIP() << "no robots in " SINEW_SHARED_DIR "/robots";
+  const Question question(robot("clean/hyq.urdf"), "rnea", true);
+  backend::COptions options;
+  options.name = "solver";
+  options.limbs = false;
+  const backend::GeneratedCode code = generate_c(question.program(), options);
+  EXPECT_FALSE(code.with_limbs.has_value());
+  EXPECT_EQ(code.files[1].text.find("limbs"), std::string::npos);
+}
+
+TEST(Limbs, OfASerialArmAreNone) {
+  if (published_robots().empty()) GTEST_SKIP() << "no robots in " SINEW_SHARED_DIR "/robots";
+  const Question question(robot("clean/iiwa.urdf"), "rnea");
+  const program::ScalarProgram scalar = program::scalar_program(question.program());
+  EXPECT_FALSE(
+      program::limb_program(scalar.program, program::count_operations(scalar.computation)));
+}
+
+}  // namespace
+}  // namespace sinew::test
