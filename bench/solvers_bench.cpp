@@ -147,7 +147,7 @@ struct Case {
     const auto models = cli::load(files);
     const auto scalar =
         program::scalar_program(cli::program_of(*models, files, query_of(solver), ""));
-    function = std::make_shared<backend::JitFunction>(backend::jit_compile(scalar.computation));
+    function = std::make_shared<backend::JitFunction>(backend::jit_compile(scalar));
     kdl = std::make_shared<Kdl>(file, solver);
     inputs = scalar.computation.inputs;
     results = scalar.computation.results.size();
@@ -253,8 +253,8 @@ void BM_program_to_machine_code(benchmark::State& state) {
   const auto models = cli::load(files);
   const auto program = cli::program_of(*models, files, query_of("rnea"), "");
   for (auto _ : state) {
-    benchmark::DoNotOptimize(backend::jit_compile(program::scalar_program(program).computation,
-                                                  {backend::JitLevel::kFast, ""}));
+    benchmark::DoNotOptimize(
+        backend::jit_compile(program::scalar_program(program), {backend::JitLevel::kFast, ""}));
   }
 }
 BENCHMARK(BM_program_to_machine_code)->Unit(benchmark::kMillisecond);

@@ -106,14 +106,23 @@ int run_bench(Arguments arguments) {
                                      {"sincos", code.operations.sincos}}},
                                    {"model_to_c_ms", to_c_ms}};
 
+  if (code.with_limbs) {
+    report["operations_with_limbs"] = {{"add", code.with_limbs->add},
+                                       {"multiply", code.with_limbs->multiply},
+                                       {"divide", code.with_limbs->divide},
+                                       {"sqrt", code.with_limbs->sqrt},
+                                       {"sincos", code.with_limbs->sincos}};
+  }
+
   std::string why;
   if (backend::jit_available(&why)) {
     const Clock::time_point jit_start = Clock::now();
-    const program::Computation computation = program::scalar_program(program).computation;
+    const program::ScalarProgram scalar = program::scalar_program(program);
     const backend::JitFunction function = backend::jit_compile(
-        computation, {level == "fast" ? backend::JitLevel::kFast : backend::JitLevel::kFull, ""});
+        scalar, {level == "fast" ? backend::JitLevel::kFast : backend::JitLevel::kFull, ""});
     report["model_to_code_ms"] = to_program_ms + since_ms(jit_start);
-    const Timing timing = measure(function, computation.inputs, computation.results.size());
+    const Timing timing =
+        measure(function, scalar.computation.inputs, scalar.computation.results.size());
     report["ns_single"] = timing.single_ns;
     report["ns_batch"] = timing.batch_ns;
     report["code_bytes"] = function.code_bytes();
@@ -135,8 +144,9 @@ int run_bench(Arguments arguments) {
                                                   : value.dump());
       continue;
     }
+    const char* in_lanes = key == "operations" ? "" : "with limbs: ";
     for (const auto& [name, count] : value.items()) {
-      text += fmt::format("{:<20} {}\n", name, count.dump());
+      text += fmt::format("{:<20} {}\n", in_lanes + name, count.dump());
     }
   }
   write_output("", text);

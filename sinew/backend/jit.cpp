@@ -70,7 +70,7 @@ void JitFunction::batch(const double* in, double* out, std::size_t n) const noex
   double* const results = sample + inputs_;
   for (; k < n; ++k) {
     for (std::size_t i = 0; i < inputs_; ++i) sample[i] = in[i * n + k];
-    single_(sample, results);
+    one_by_one_(sample, results);
     for (std::size_t j = 0; j < results_; ++j) out[j * n + k] = results[j];
   }
 }
@@ -80,7 +80,8 @@ bool jit_available(std::string* why) {
   return library().compile != nullptr;
 }
 
-JitFunction jit_compile(const program::Computation& computation, const JitOptions& options) {
+JitFunction jit_compile(const program::Computation& computation, const JitOptions& options,
+                        const program::LimbProgram* limbs) {
   if (library().compile == nullptr) {
     throw Error({{},
                  "",
@@ -99,8 +100,17 @@ JitFunction jit_compile(const program::Computation& computation, const JitOption
                  {}});
   }
   JitFunction function;
-  library().compile(computation, options, function);
+  library().compile(computation, limbs, options, function);
   return function;
+}
+
+JitFunction jit_compile(const program::ScalarProgram& program, const JitOptions& options) {
+  if (!program.program.derivatives.empty() || !program.update.results.empty()) {
+    return jit_compile(program.computation, options);
+  }
+  const auto limbs =
+      program::limb_program(program.program, program::count_operations(program.computation));
+  return jit_compile(program.computation, options, limbs ? &*limbs : nullptr);
 }
 
 }  // namespace sinew::backend

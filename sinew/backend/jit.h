@@ -16,6 +16,8 @@
 #include <string>
 
 #include "sinew/program/dag/dag.h"
+#include "sinew/program/limbs/limb_program.h"
+#include "sinew/program/scalar_program.h"
 
 namespace sinew::backend {
 
@@ -35,8 +37,8 @@ class JitFunction {
   // in: computation.inputs numbers; out: computation.results.size() numbers. They may not overlap.
   void operator()(const double* in, double* out) const noexcept { single_(in, out); }
   // n samples: input i of sample k at in[i * n + k], result j of sample k at out[j * n + k]. A
-  // sample's results are bit for bit those of a single call, wherever in a batch of whatever size
-  // it stands.
+  // sample's results are bit for bit the same wherever in a batch of whatever size it stands; and,
+  // without limbs side by side, those of a single call.
   void batch(const double* in, double* out, std::size_t n) const noexcept;
 
   std::size_t code_bytes() const { return code_bytes_; }  // of the single-sample function
@@ -51,6 +53,7 @@ class JitFunction {
  private:
   friend struct JitFunctionMaker;
   Single single_ = nullptr;
+  Single one_by_one_ = nullptr;  // single_, or without limbs side by side
   Block block_ = nullptr;
   std::size_t inputs_ = 0;
   std::size_t results_ = 0;
@@ -64,6 +67,10 @@ class JitFunction {
 bool jit_available(std::string* why = nullptr);
 
 // Throws Error when the library cannot be loaded or LLVM refuses.
-JitFunction jit_compile(const program::Computation& computation, const JitOptions& options = {});
+// With `limbs`, of the same program, single calls compute them side by side.
+JitFunction jit_compile(const program::Computation& computation, const JitOptions& options = {},
+                        const program::LimbProgram* limbs = nullptr);
+// A program, with its limbs side by side where that pays.
+JitFunction jit_compile(const program::ScalarProgram& program, const JitOptions& options = {});
 
 }  // namespace sinew::backend

@@ -16,7 +16,7 @@ Tiered::Tiered(program::Program program, JitOptions options) : interpreter_(prog
   }
   compiler_ = std::thread([this, program = std::move(program), options = std::move(options)] {
     try {
-      compiled_ = jit_compile(program::scalar_program(program).computation, options);
+      compiled_ = jit_compile(program::scalar_program(program), options);
       code_.store(&*compiled_, std::memory_order_release);
     } catch (const std::exception& error) {
       fault_ = error.what();

@@ -59,7 +59,7 @@ Pure pure_of(const program::Segment& segment, Storage& storage, const PrepareOpt
     return pure;
   }
   pure.code = backend::jit_compile(
-      program::scalar_program(segment.program).computation,
+      program::scalar_program(segment.program),
       {options.fast ? backend::JitLevel::kFast : backend::JitLevel::kFull, ""});
   return pure;
 }

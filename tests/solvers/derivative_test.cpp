@@ -284,8 +284,8 @@ TEST(Derivative, IsTheSameFromEveryBackEnd) {
   code.batch()(batch_in.data(), batch_out.data(), kSamples);
   expect_same("C batch");
   if (!backend::jit_available()) return;
-  const auto jit = backend::jit_compile(program::scalar_program(program).computation,
-                                        {backend::JitLevel::kFast, ""});
+  const auto jit =
+      backend::jit_compile(program::scalar_program(program), {backend::JitLevel::kFast, ""});
   expect_single("JIT", jit);
   jit.batch(batch_in.data(), batch_out.data(), kSamples);
   expect_same("JIT batch");

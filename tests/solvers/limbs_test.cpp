@@ -8,6 +8,7 @@
 #include "sinew/backend/c_target.h"
 #include "sinew/backend/compile.h"
 #include "sinew/backend/interpreter.h"
+#include "sinew/backend/jit.h"
 #include "sinew/program/limbs/limb_program.h"
 #include "sinew/program/scalar_program.h"
 
@@ -87,6 +88,36 @@ TEST(Limbs, GeneratedCAgreesWithTheInterpreterUnderEveryCompilerAndProcessor) {
         loaded.function()(in.data(), out.data());
         EXPECT_LT(difference(out, expected), 1e-11) << compiler[0] << " " << compiler[1];
       }
+    }
+  }
+}
+
+TEST(Limbs, MachineCodeAgreesWithTheInterpreterAndBatchesDoNotDependOnTheirSize) {
+  if (published_robots().empty()) GTEST_SKIP() << "no robots in " SINEW_SHARED_DIR "/robots";
+  std::string why;
+  if (!backend::jit_available(&why)) GTEST_SKIP() << why;
+  for (const Case& c : kCases) {
+    SCOPED_TRACE(c.solver + " " + c.robot);
+    const Question question(robot(c.robot), c.solver, c.floating);
+    backend::Interpreter interpreter(question.program());
+    const backend::JitFunction function = backend::jit_compile(
+        program::scalar_program(question.program()), {backend::JitLevel::kFast, ""});
+    constexpr std::size_t kSamples = 19;
+    const std::size_t in_size = interpreter.in_size(), out_size = interpreter.out_size();
+    std::mt19937 random(8);
+    std::uniform_real_distribution<> number(-1, 1);
+    peers::Vector rows(in_size * kSamples), all(out_size * kSamples);
+    for (double& x : rows) x = number(random);
+    rows[7 * kSamples + 3] = 1e6;  // a sine that the C library computes
+    function.batch(rows.data(), all.data(), kSamples);
+    for (std::size_t k = 0; k < kSamples; ++k) {
+      peers::Vector in(in_size), expected(out_size), out(out_size), alone(out_size);
+      for (std::size_t i = 0; i < in_size; ++i) in[i] = rows[i * kSamples + k];
+      interpreter.evaluate(in.data(), expected.data());
+      function(in.data(), out.data());
+      EXPECT_LT(difference(out, expected), 1e-11) << k;
+      function.batch(in.data(), alone.data(), 1);
+      for (std::size_t i = 0; i < out_size; ++i) EXPECT_EQ(alone[i], all[i * kSamples + k]) << k;
     }
   }
 }

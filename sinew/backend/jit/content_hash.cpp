@@ -25,11 +25,7 @@ class Hash {
   std::uint64_t second_ = 0x9e3779b97f4a7c15u;
 };
 
-}  // namespace
-
-std::string content_hash(const program::Computation& computation, std::string_view machine) {
-  Hash hash;
-  for (const char c : machine) hash.add(static_cast<unsigned char>(c));
+void add(Hash& hash, const program::Computation& computation) {
   hash.add(computation.inputs);
   hash.add(computation.dag.size());
   for (std::uint32_t i = 0; i < computation.dag.size(); ++i) {
@@ -39,9 +35,35 @@ std::string content_hash(const program::Computation& computation, std::string_vi
     hash.add(node.c.bits);
     hash.add(std::bit_cast<std::uint64_t>(node.value));
   }
+  hash.add(computation.results.size());
   for (const program::Ref result : computation.results) hash.add(result.bits);
   hash.add(computation.order.size());
   for (const std::uint32_t node : computation.order) hash.add(node);
+}
+
+void add(Hash& hash, const program::LimbSource& source) {
+  hash.add(static_cast<std::uint64_t>(source.kind) << 32 | source.index);
+  hash.add(std::uint64_t{source.region} << 32 | source.lane << 1U | (source.negative ? 1U : 0U));
+  hash.add(std::bit_cast<std::uint64_t>(source.value));
+}
+
+}  // namespace
+
+std::string content_hash(const program::Computation& computation, const program::LimbProgram* limbs,
+                         std::string_view machine) {
+  Hash hash;
+  for (const char c : machine) hash.add(static_cast<unsigned char>(c));
+  add(hash, computation);
+  if (limbs != nullptr) {
+    for (const program::LimbRegion& region : limbs->regions) {
+      hash.add(region.lanes);
+      add(hash, region.computation);
+      for (const auto& sources : region.inputs) {
+        for (const program::LimbSource& source : sources) add(hash, source);
+      }
+    }
+    for (const program::LimbSource& source : limbs->results) add(hash, source);
+  }
   return hash.text();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -20,19 +21,29 @@ using program::Ref;
 
 bool is_trigonometric(Op op) { return op == Op::kSin || op == Op::kCos; }
 
-// Emits one function: either for one sample, or for kBatchLanes samples at once.
-class FunctionEmitter {
+// What every part of a function needs.
+struct Place {
+  LLVMBuilderRef builder = nullptr;
+  LLVMValueRef function = nullptr;
+  LLVMValueRef repair = nullptr;
+  bool fuse = false;
+};
+
+using Load = std::function<LLVMValueRef(std::uint32_t input)>;
+
+// Emits what a computation does on numbers of one type: doubles or vectors of them.
+class ComputationEmitter {
  public:
-  FunctionEmitter(const Computation& computation, LLVMBuilderRef builder, LLVMValueRef function,
-                  LLVMValueRef repair, LLVMTypeRef type, LLVMValueRef stride, bool fuse)
+  ComputationEmitter(const Computation& computation, const Place& place, LLVMTypeRef type,
+                     Load load)
       : computation_(computation),
         dag_(computation.dag),
-        builder_(builder),
-        function_(function),
-        repair_(repair),
-        stride_(stride),
-        ir_(builder, type, fuse),
-        fuse_(fuse),
+        builder_(place.builder),
+        function_(place.function),
+        repair_(place.repair),
+        load_(std::move(load)),
+        ir_(place.builder, type, place.fuse),
+        fuse_(place.fuse),
         live_(program::live_nodes(computation)),
         uses_(dag_.size(), 0),
         values_(dag_.size(), nullptr),
@@ -42,7 +53,8 @@ class FunctionEmitter {
     count_uses();
   }
 
-  void emit() {
+  // The results.
+  std::vector<LLVMValueRef> emit() {
     emit_sines_of_inputs();
     std::vector<std::uint32_t> order = computation_.order;
     if (order.empty()) {
@@ -52,10 +64,9 @@ class FunctionEmitter {
     for (const std::uint32_t index : order) {
       if (live_[index] && !is_fused(index)) (void)value(index);
     }
-    for (std::size_t i = 0; i < computation_.results.size(); ++i) {
-      store(signed_value(computation_.results[i]), i);
-    }
-    LLVMBuildRetVoid(builder_);
+    std::vector<LLVMValueRef> results;
+    for (const Ref result : computation_.results) results.push_back(signed_value(result));
+    return results;
   }
 
  private:
@@ -75,25 +86,6 @@ class FunctionEmitter {
     }
   }
 
-  LLVMValueRef address(LLVMValueRef base, std::size_t index) const {
-    const LLVMTypeRef integer = LLVMInt64TypeInContext(ir_.context());
-    LLVMValueRef offset = LLVMConstInt(integer, index, false);
-    if (stride_ != nullptr) offset = LLVMBuildMul(builder_, offset, stride_, "");
-    return LLVMBuildInBoundsGEP2(builder_, LLVMDoubleTypeInContext(ir_.context()), base, &offset, 1,
-                                 "");
-  }
-  LLVMValueRef load(std::size_t index) const {
-    const LLVMValueRef value =
-        LLVMBuildLoad2(builder_, ir_.type(), address(LLVMGetParam(function_, 0), index), "");
-    LLVMSetAlignment(value, 8);
-    return value;
-  }
-  void store(LLVMValueRef value, std::size_t index) const {
-    const LLVMValueRef done =
-        LLVMBuildStore(builder_, value, address(LLVMGetParam(function_, 1), index));
-    LLVMSetAlignment(done, 8);
-  }
-
   // All angles that are inputs: one vectorised evaluation at the start. Angles that are computed
   // get theirs where they are needed.
   void emit_sines_of_inputs() {
@@ -106,7 +98,7 @@ class FunctionEmitter {
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     if (nodes.empty()) return;
-    if (ir_.lanes() > 1) {
+    if (ir_.lanes() >= kBatchLanes) {
       std::vector<LLVMValueRef> angles;
       for (const std::uint32_t node : nodes) angles.push_back(value(node));
       const SincosValues values = emit_sincos(builder_, function_, repair_, angles, fuse_);
@@ -119,26 +111,49 @@ class FunctionEmitter {
     emit_packed_sines(nodes);
   }
 
-  // One sample: angles share vectors of 8 (the last 4 or 2), unused lanes are 0.
+  LLVMValueRef integer(std::size_t value) const {
+    return LLVMConstInt(LLVMInt64TypeInContext(ir_.context()), value, false);
+  }
+
+  // Lanes of angles that are narrower share vectors of 8 (the last 4 or 2); unused lanes are 0.
   void emit_packed_sines(const std::vector<std::uint32_t>& nodes) {
     const LLVMTypeRef number = LLVMDoubleTypeInContext(ir_.context());
-    const LLVMTypeRef integer = LLVMInt64TypeInContext(ir_.context());
-    for (std::size_t first = 0; first < nodes.size();) {
-      const std::size_t left = nodes.size() - first;
+    const unsigned lanes = ir_.lanes();
+    const auto lane_of = [&](LLVMValueRef value, unsigned lane) {
+      return lanes == 1 ? value : LLVMBuildExtractElement(builder_, value, integer(lane), "");
+    };
+    const std::size_t numbers = nodes.size() * lanes;
+    std::vector<LLVMValueRef> sines, cosines;  // of every number
+    for (std::size_t first = 0; first < numbers;) {
+      const std::size_t left = numbers - first;
       const unsigned width = left > 4 ? 8 : left > 2 ? 4 : 2;
       const std::size_t count = std::min<std::size_t>(left, width);
       LLVMValueRef packed = LLVMConstNull(LLVMVectorType(number, width));
       for (std::size_t i = 0; i < count; ++i) {
-        packed = LLVMBuildInsertElement(builder_, packed, value(nodes[first + i]),
-                                        LLVMConstInt(integer, i, false), "");
+        const std::size_t at = first + i;
+        packed = LLVMBuildInsertElement(
+            builder_, packed, lane_of(value(nodes[at / lanes]), static_cast<unsigned>(at % lanes)),
+            integer(i), "");
       }
       const SincosValues values = emit_sincos(builder_, function_, repair_, {packed}, fuse_);
       for (std::size_t i = 0; i < count; ++i) {
-        const LLVMValueRef lane = LLVMConstInt(integer, i, false);
-        sine_[nodes[first + i]] = LLVMBuildExtractElement(builder_, values.sine[0], lane, "");
-        cosine_[nodes[first + i]] = LLVMBuildExtractElement(builder_, values.cosine[0], lane, "");
+        sines.push_back(LLVMBuildExtractElement(builder_, values.sine[0], integer(i), ""));
+        cosines.push_back(LLVMBuildExtractElement(builder_, values.cosine[0], integer(i), ""));
       }
       first += count;
+    }
+    const auto joined = [&](const std::vector<LLVMValueRef>& parts, std::size_t node) {
+      if (lanes == 1) return parts[node];
+      LLVMValueRef vector = LLVMGetUndef(ir_.type());
+      for (unsigned lane = 0; lane < lanes; ++lane) {
+        vector =
+            LLVMBuildInsertElement(builder_, vector, parts[node * lanes + lane], integer(lane), "");
+      }
+      return vector;
+    };
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      sine_[nodes[i]] = joined(sines, i);
+      cosine_[nodes[i]] = joined(cosines, i);
     }
   }
 
@@ -171,7 +186,7 @@ class FunctionEmitter {
       case Op::kConstant:
         return ir_.number(node.value);
       case Op::kInput:
-        return load(node.index);
+        return load_(node.index);
       case Op::kAdd:
         return sum(node);
       case Op::kMultiply:
@@ -231,7 +246,7 @@ class FunctionEmitter {
   LLVMBuilderRef builder_;
   LLVMValueRef function_;
   LLVMValueRef repair_;
-  LLVMValueRef stride_;  // null: one sample
+  Load load_;
   Ir ir_;
   bool fuse_;
   std::vector<bool> live_;
@@ -240,6 +255,121 @@ class FunctionEmitter {
   std::vector<LLVMValueRef> sine_;    // by the angle's node
   std::vector<LLVMValueRef> cosine_;
   std::vector<bool> fused_;  // by node: part of the one sum that needs it
+};
+
+// One sample, or with a stride kBatchLanes of them.
+void emit_samples(const Computation& computation, const Place& place, LLVMTypeRef type,
+                  LLVMValueRef stride) {
+  const LLVMContextRef context = LLVMGetTypeContext(type);
+  const auto address = [&](unsigned parameter, std::size_t index) {
+    LLVMValueRef offset = LLVMConstInt(LLVMInt64TypeInContext(context), index, false);
+    if (stride != nullptr) offset = LLVMBuildMul(place.builder, offset, stride, "");
+    return LLVMBuildInBoundsGEP2(place.builder, LLVMDoubleTypeInContext(context),
+                                 LLVMGetParam(place.function, parameter), &offset, 1, "");
+  };
+  const auto load = [&](std::uint32_t input) {
+    const LLVMValueRef value = LLVMBuildLoad2(place.builder, type, address(0, input), "");
+    LLVMSetAlignment(value, 8);
+    return value;
+  };
+  const std::vector<LLVMValueRef> results =
+      ComputationEmitter(computation, place, type, load).emit();
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    LLVMSetAlignment(LLVMBuildStore(place.builder, results[i], address(1, i)), 8);
+  }
+  LLVMBuildRetVoid(place.builder);
+}
+
+// One sample with its limbs side by side, region after region.
+class LimbEmitter {
+ public:
+  LimbEmitter(const program::LimbProgram& program, const Place& place, LLVMContextRef context)
+      : program_(program), place_(place), number_(LLVMDoubleTypeInContext(context)) {}
+
+  void emit() {
+    for (const program::LimbRegion& region : program_.regions) {
+      unsigned width = 1;
+      while (width < region.lanes) width *= 2;
+      const LLVMTypeRef type = width == 1 ? number_ : LLVMVectorType(number_, width);
+      const auto load = [&](std::uint32_t input) {
+        return gathered(region.inputs[input], type, width);
+      };
+      results_.push_back(ComputationEmitter(region.computation, place_, type, load).emit());
+    }
+    for (std::size_t i = 0; i < program_.results.size(); ++i) {
+      LLVMSetAlignment(LLVMBuildStore(place_.builder, number(program_.results[i]), address(1, i)),
+                       8);
+    }
+    LLVMBuildRetVoid(place_.builder);
+  }
+
+ private:
+  LLVMValueRef integer(std::size_t value) const {
+    return LLVMConstInt(LLVMInt64TypeInContext(LLVMGetTypeContext(number_)), value, false);
+  }
+  LLVMValueRef address(unsigned parameter, std::size_t index) const {
+    LLVMValueRef offset = integer(index);
+    return LLVMBuildInBoundsGEP2(place_.builder, number_, LLVMGetParam(place_.function, parameter),
+                                 &offset, 1, "");
+  }
+
+  LLVMValueRef number(const program::LimbSource& source) const {
+    switch (source.kind) {
+      case program::LimbSource::Kind::kConstant:
+        return LLVMConstReal(number_, source.value);
+      case program::LimbSource::Kind::kCaller: {
+        const LLVMValueRef value =
+            LLVMBuildLoad2(place_.builder, number_, address(0, source.index), "");
+        LLVMSetAlignment(value, 8);
+        return value;
+      }
+      default:
+        break;
+    }
+    LLVMValueRef value = results_[source.region][source.index];
+    if (program_.regions[source.region].lanes > 1) {
+      value = LLVMBuildExtractElement(place_.builder, value, integer(source.lane), "");
+    }
+    return source.negative ? LLVMBuildFNeg(place_.builder, value, "") : value;
+  }
+
+  // One number for each lane; those that are left over repeat the first.
+  LLVMValueRef gathered(const std::vector<program::LimbSource>& sources, LLVMTypeRef type,
+                        unsigned width) const {
+    if (width == 1) return number(sources[0]);
+    if (is_whole_vector(sources)) {
+      const LLVMValueRef value = results_[sources[0].region][sources[0].index];
+      return sources[0].negative ? LLVMBuildFNeg(place_.builder, value, "") : value;
+    }
+    LLVMValueRef vector = LLVMGetUndef(type);
+    LLVMValueRef first = nullptr;
+    for (unsigned lane = 0; lane < width; ++lane) {
+      // A number that all lanes share is loaded once.
+      const bool repeats = lane > 0 && (lane >= sources.size() || sources[lane] == sources[0]);
+      const LLVMValueRef value = repeats ? first : number(sources[lane]);
+      if (lane == 0) first = value;
+      vector = LLVMBuildInsertElement(place_.builder, vector, value, integer(lane), "");
+    }
+    return vector;
+  }
+
+  // Whether these are the lanes of one result, in their order.
+  bool is_whole_vector(const std::vector<program::LimbSource>& sources) const {
+    const program::LimbSource& first = sources[0];
+    if (first.kind != program::LimbSource::Kind::kRegion) return false;
+    if (program_.regions[first.region].lanes != sources.size()) return false;
+    for (std::uint32_t lane = 0; lane < sources.size(); ++lane) {
+      program::LimbSource expected = first;
+      expected.lane = lane;
+      if (!(sources[lane] == expected)) return false;
+    }
+    return true;
+  }
+
+  const program::LimbProgram& program_;
+  Place place_;
+  LLVMTypeRef number_;
+  std::vector<std::vector<LLVMValueRef>> results_;  // [region][result]
 };
 
 LLVMValueRef declare(LLVMModuleRef module, const char* name, std::vector<LLVMTypeRef> parameters) {
@@ -258,26 +388,29 @@ void add_attribute(LLVMValueRef function, unsigned where, const char* name) {
 }  // namespace
 
 LLVMModuleRef emit_module(LLVMContextRef context, const program::Computation& computation,
-                          bool fuse) {
+                          const program::LimbProgram* limbs, bool fuse) {
   const LLVMModuleRef module = LLVMModuleCreateWithNameInContext("sinew", context);
   const LLVMTypeRef number = LLVMDoubleTypeInContext(context);
   const LLVMTypeRef pointer = LLVMPointerTypeInContext(context, 0);
   const LLVMTypeRef size = LLVMInt64TypeInContext(context);
 
   const LLVMValueRef repair = declare(module, kSincosRepairName, {pointer, pointer, pointer, size});
-  const LLVMValueRef single = declare(module, kSingleName, {pointer, pointer});
-  const LLVMValueRef block = declare(module, kBlockName, {pointer, pointer, size});
-
   const LLVMBuilderRef builder = LLVMCreateBuilderInContext(context);
-  for (const LLVMValueRef function : {single, block}) {
+  const auto begin = [&](LLVMValueRef function) {
     for (const unsigned parameter : {1u, 2u}) add_attribute(function, parameter, "noalias");
     add_attribute(function, LLVMAttributeFunctionIndex, "nounwind");
     LLVMPositionBuilderAtEnd(builder, LLVMAppendBasicBlockInContext(context, function, "entry"));
-    const bool is_block = function == block;
-    FunctionEmitter(computation, builder, function, repair,
-                    is_block ? LLVMVectorType(number, kBatchLanes) : number,
-                    is_block ? LLVMGetParam(function, 2) : nullptr, fuse)
-        .emit();
+    return Place{builder, function, repair, fuse};
+  };
+  const LLVMValueRef one =
+      declare(module, limbs != nullptr ? kOneByOneName : kSingleName, {pointer, pointer});
+  emit_samples(computation, begin(one), number, nullptr);
+  const LLVMValueRef block = declare(module, kBlockName, {pointer, pointer, size});
+  emit_samples(computation, begin(block), LLVMVectorType(number, kBatchLanes),
+               LLVMGetParam(block, 2));
+  if (limbs != nullptr) {
+    const LLVMValueRef single = declare(module, kSingleName, {pointer, pointer});
+    LimbEmitter(*limbs, begin(single), context).emit();
   }
   LLVMDisposeBuilder(builder);
   return module;

@@ -6,11 +6,13 @@
 #include <llvm-c/Core.h>
 
 #include "sinew/program/dag/dag.h"
+#include "sinew/program/limbs/limb_program.h"
 
 namespace sinew::backend {
 
 inline constexpr unsigned kBatchLanes = 8;
 inline constexpr const char* kSingleName = "sinew_single";
+inline constexpr const char* kOneByOneName = "sinew_one_by_one";
 inline constexpr const char* kBlockName = "sinew_block";
 // void(const double* x, double* sine, double* cosine, size_t n): see sincos.h.
 inline constexpr const char* kSincosRepairName = "sinew_sincos_repair";
@@ -21,9 +23,11 @@ inline constexpr const char* kSincosRepairName = "sinew_sincos_repair";
 //   of sample k
 //                                                                    at in[i * stride + k], outputs
 //                                                                    likewise
-// `fuse` contracts products that are used once into fused multiply-adds, the same ones in both
-// functions, so that both give the same bits.
+// With `limbs` (null: none) sinew_single computes them side by side, and
+//   void sinew_one_by_one(const double* in, double* out)
+// does what the block does for one sample. `fuse` contracts products that are used once into fused
+// multiply-adds, the same ones in both of the others, so that both give the same bits.
 LLVMModuleRef emit_module(LLVMContextRef context, const program::Computation& computation,
-                          bool fuse);
+                          const program::LimbProgram* limbs, bool fuse);
 
 }  // namespace sinew::backend

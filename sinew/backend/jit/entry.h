@@ -5,8 +5,8 @@
 
 namespace sinew::backend {
 
-using JitCompile = void(const program::Computation& computation, const JitOptions& options,
-                        JitFunction& result);
+using JitCompile = void(const program::Computation& computation, const program::LimbProgram* limbs,
+                        const JitOptions& options, JitFunction& result);
 inline constexpr const char* kJitEntryName = "sinew_jit_compile";
 
 }  // namespace sinew::backend

@@ -26,12 +26,13 @@
 namespace sinew::backend {
 
 struct JitFunctionMaker {
-  static JitFunction make(JitFunction::Single single, JitFunction::Block block,
-                          const program::Computation& computation, std::size_t code_bytes,
-                          std::size_t batch_code_bytes, bool from_cache,
+  static JitFunction make(JitFunction::Single single, JitFunction::Single one_by_one,
+                          JitFunction::Block block, const program::Computation& computation,
+                          std::size_t code_bytes, std::size_t batch_code_bytes, bool from_cache,
                           std::shared_ptr<void> code) {
     JitFunction function;
     function.single_ = single;
+    function.one_by_one_ = one_by_one;
     function.block_ = block;
     function.inputs_ = computation.inputs;
     function.results_ = computation.results.size();
@@ -107,11 +108,11 @@ class Machine {
 };
 
 // The object file of the computation's module.
-std::string compile_object(const program::Computation& computation, const Host& host,
-                           JitLevel level) {
+std::string compile_object(const program::Computation& computation,
+                           const program::LimbProgram* limbs, const Host& host, JitLevel level) {
   const Machine machine(host, level);
   const LLVMContextRef context = LLVMContextCreate();
-  const LLVMModuleRef module = emit_module(context, computation, host.has_fma);
+  const LLVMModuleRef module = emit_module(context, computation, limbs, host.has_fma);
   LLVMSetTarget(module, host.triple.c_str());
   const LLVMTargetDataRef layout = LLVMCreateTargetDataLayout(machine.get());
   LLVMSetModuleDataLayout(module, layout);
@@ -224,7 +225,8 @@ class LinkedCode {
 }  // namespace
 
 extern "C" void sinew_jit_compile(const program::Computation& computation,
-                                  const JitOptions& options, JitFunction& result) {
+                                  const program::LimbProgram* limbs, const JitOptions& options,
+                                  JitFunction& result) {
   static const bool ready =
       LLVMInitializeNativeTarget() == 0 && LLVMInitializeNativeAsmPrinter() == 0;
   if (!ready) fail("it was built without this machine's target");
@@ -238,19 +240,21 @@ extern "C" void sinew_jit_compile(const program::Computation& computation,
                                 std::to_string(LLVM_VERSION_MAJOR);
     cached =
         std::filesystem::path(options.cache_folder) /
-        (content_hash(computation, machine + char('0' + static_cast<int>(options.level))) + ".o");
+        (content_hash(computation, limbs, machine + char('0' + static_cast<int>(options.level))) +
+         ".o");
     object = read_cached(cached);
     from_cache = function_bytes(object, kSingleName) > 0;
   }
   if (!from_cache) {
-    object = compile_object(computation, this_host, options.level);
+    object = compile_object(computation, limbs, this_host, options.level);
     if (!cached.empty()) write_cached(cached, object);
   }
   const auto code = std::make_shared<LinkedCode>(object);
-  result = JitFunctionMaker::make(code->find<JitFunction::Single>(kSingleName),
-                                  code->find<JitFunction::Block>(kBlockName), computation,
-                                  function_bytes(object, kSingleName),
-                                  function_bytes(object, kBlockName), from_cache, code);
+  const char* one_by_one = limbs != nullptr ? kOneByOneName : kSingleName;
+  result = JitFunctionMaker::make(
+      code->find<JitFunction::Single>(kSingleName), code->find<JitFunction::Single>(one_by_one),
+      code->find<JitFunction::Block>(kBlockName), computation, function_bytes(object, kSingleName),
+      function_bytes(object, kBlockName), from_cache, code);
 }
 
 }  // namespace sinew::backend
