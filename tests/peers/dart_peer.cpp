@@ -149,6 +149,43 @@ class DartPeer final : public Peer {
     return force;
   }
 
+  void load(const std::vector<State>& states, const std::vector<Vector>& forces) override {
+    loaded_.clear();
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      set(states[k]);
+      loaded_.push_back({skeleton_->getPositions(), skeleton_->getVelocities(),
+                         own(states[k].acceleration), own(forces[k])});
+    }
+  }
+
+  bool call(std::string_view solver, std::size_t state) override {
+    const Loaded& loaded = loaded_[state];
+    skeleton_->setPositions(loaded.position);
+    BodyNode* last = skeleton_->getBodyNode(skeleton_->getNumBodyNodes() - 1);
+    if (solver == "fpk") {
+      last->getWorldTransform();
+      for (BodyNode* body : skeleton_->getBodyNodes()) body->getWorldTransform();
+      return true;
+    }
+    if (solver == "crba") {
+      skeleton_->getMassMatrix();
+      return true;
+    }
+    if (solver == "jacobian") {
+      skeleton_->getWorldJacobian(last);
+      return true;
+    }
+    skeleton_->setVelocities(loaded.velocity);
+    if (solver == "rnea") {
+      skeleton_->setAccelerations(loaded.acceleration);
+      skeleton_->computeInverseDynamics();
+    } else {
+      skeleton_->setForces(loaded.force);
+      skeleton_->computeForwardDynamics();
+    }
+    return true;
+  }
+
   std::optional<Vector> quantity(const State& state, std::string_view name,
                                  const std::string& link) override {
     set(state);
@@ -275,6 +312,11 @@ class DartPeer final : public Peer {
     skeleton_->setVelocities(own(state.velocity));
   }
 
+  struct Loaded {
+    Eigen::VectorXd position, velocity, acceleration, force;
+  };
+
+  std::vector<Loaded> loaded_;
   bool floating_;
   SkeletonPtr skeleton_;
   std::vector<std::size_t> index_;

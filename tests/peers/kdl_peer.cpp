@@ -116,6 +116,30 @@ class KdlPeer final : public Peer {
     return solve(*inverse_, external);
   }
 
+  void load(const std::vector<State>& states, const std::vector<Vector>&) override {
+    loaded_.clear();
+    for (const State& state : states) {
+      set(state);
+      loaded_.push_back({q_, qd_, qdd_});
+    }
+    jacobian_.resize(tree_.getNrOfJoints());
+    for (const auto& [name, element] : tree_.getSegments()) {
+      if (element.children.empty()) last_ = name;
+    }
+  }
+
+  bool call(std::string_view solver, std::size_t state) override {
+    const Loaded& own = loaded_[state];
+    if (solver == "rnea") {
+      return inverse_->CartToJnt(own.q, own.qd, own.qdd, none_, tau_) == 0;
+    }
+    if (solver == "jacobian") {
+      if (!jacobian_solver_) jacobian_solver_.emplace(tree_);
+      return jacobian_solver_->JntToJac(own.q, jacobian_, last_) >= 0;
+    }
+    return false;  // KDL has no mass matrix and no forward dynamics of trees
+  }
+
   std::optional<Vector> quantity(const State& state, std::string_view name,
                                  const std::string& link) override {
     if (link.empty() || link == tree_.getRootSegment()->first) return std::nullopt;
@@ -192,6 +216,15 @@ class KdlPeer final : public Peer {
     return force;
   }
 
+  struct Loaded {
+    KDL::JntArray q, qd, qdd;
+  };
+
+  std::vector<Loaded> loaded_;
+  KDL::WrenchMap none_;
+  KDL::Jacobian jacobian_;
+  std::optional<KDL::TreeJntToJacSolver> jacobian_solver_;
+  std::string last_;
   KDL::Tree tree_;
   std::vector<unsigned> index_;  // of the caller's joints in KDL's arrays
   std::unique_ptr<KDL::TreeIdSolver_RNE> inverse_, without_gravity_;

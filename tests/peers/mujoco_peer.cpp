@@ -186,6 +186,52 @@ class MujocoPeer final : public Peer {
     return force;
   }
 
+  void load(const std::vector<State>& states, const std::vector<Vector>& forces) override {
+    loaded_.clear();
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      Loaded own;
+      forward_dynamics(states[k], forces[k]);
+      own.force.assign(data_->qfrc_applied, data_->qfrc_applied + model_->nv);
+      set(states[k]);
+      write_acceleration(states[k], states[k].acceleration);
+      own.position.assign(data_->qpos, data_->qpos + model_->nq);
+      own.velocity.assign(data_->qvel, data_->qvel + model_->nv);
+      own.acceleration.assign(data_->qacc, data_->qacc + model_->nv);
+      loaded_.push_back(std::move(own));
+    }
+    result_.resize(6 * static_cast<std::size_t>(model_->nv));
+  }
+
+  // The engine's own stages, without contacts, sensors and actuators.
+  bool call(std::string_view solver, std::size_t state) override {
+    const Loaded& own = loaded_[state];
+    mju_copy(data_->qpos, own.position.data(), model_->nq);
+    mju_copy(data_->qvel, own.velocity.data(), model_->nv);
+    mj_kinematics(model_, data_);
+    if (solver == "fpk") return true;
+    mj_comPos(model_, data_);
+    if (solver == "jacobian") {
+      const int body = model_->nbody - 1;
+      mj_jac(model_, data_, result_.data() + 3 * model_->nv, result_.data(), data_->xpos + 3 * body,
+             body);
+      return true;
+    }
+    if (solver == "rnea") {
+      mju_copy(data_->qacc, own.acceleration.data(), model_->nv);
+      mj_comVel(model_, data_);
+      mj_rne(model_, data_, 1, result_.data());
+      return true;
+    }
+    mj_crb(model_, data_);
+    if (solver == "crba") return true;
+    mj_factorM(model_, data_);
+    mj_comVel(model_, data_);
+    mj_rne(model_, data_, 0, data_->qfrc_bias);
+    mju_sub(result_.data(), own.force.data(), data_->qfrc_bias, model_->nv);
+    mj_solveM(model_, data_, data_->qacc, result_.data(), 1);
+    return true;
+  }
+
   std::optional<Vector> quantity(const State& state, std::string_view name,
                                  const std::string& link) override {
     set(state);
@@ -217,6 +263,10 @@ class MujocoPeer final : public Peer {
   }
 
  private:
+  struct Loaded {
+    Vector position, velocity, acceleration, force;
+  };
+
   int body_of(const std::string& link) const {
     const int id = mj_name2id(model_, mjOBJ_BODY, ("link " + link).c_str());
     if (id < 0) throw std::runtime_error("MuJoCo has no link " + link);
@@ -382,6 +432,8 @@ class MujocoPeer final : public Peer {
     return force;
   }
 
+  std::vector<Loaded> loaded_;
+  Vector result_;
   bool floating_;
   mjModel* model_ = nullptr;
   mjData* data_ = nullptr;

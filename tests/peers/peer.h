@@ -56,6 +56,13 @@ class Peer {
   // origin.
   virtual Vector inverse_dynamics_under(const State& state, const std::string& link,
                                         const Vector& wrench) = 0;
+
+  // For benchmarks. `load` puts states, with forces for forward dynamics, into the library's own
+  // form; `call` sets one of them and makes the library's own calls for a solver of ours (rnea,
+  // aba, crba, fpk, jacobian: of the last link), leaving the result in the library. False where it
+  // has none.
+  virtual void load(const std::vector<State>& states, const std::vector<Vector>& forces) = 0;
+  virtual bool call(std::string_view solver, std::size_t state) = 0;
 };
 
 // Throw std::runtime_error with what the library says.

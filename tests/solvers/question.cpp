@@ -58,7 +58,7 @@ Question::Question(const Robot& robot, const cli::QueryOptions& query) {
   }
 }
 
-peers::Vector Question::answer(const peers::State& state, const peers::Vector& force) {
+peers::Vector Question::inputs(const peers::State& state, const peers::Vector& force) const {
   // Each quantity's numbers come in the order of the state: the base's, then the joints'.
   const std::map<std::string, const peers::Vector*> vectors = {
       {"position", &state.position},
@@ -76,6 +76,11 @@ peers::Vector Question::answer(const peers::State& state, const peers::Vector& f
     const std::string quantity = input.substr(0, input.find('.'));
     in.push_back(vectors.at(quantity)->at(used[quantity]++));
   }
+  return in;
+}
+
+peers::Vector Question::answer(const peers::State& state, const peers::Vector& force) {
+  const peers::Vector in = inputs(state, force);
   peers::Vector out(evaluator_->interface().out_size);
   evaluator_->evaluate(in.data(), out.data());
   return out;

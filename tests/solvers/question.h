@@ -34,6 +34,8 @@ class Question {
   const std::vector<std::string>& joints() const { return joints_; }
   const program::Program& program() const { return program_; }
 
+  // The program's inputs for a state, one after the other; as `answer` takes them.
+  peers::Vector inputs(const peers::State& state, const peers::Vector& force = {}) const;
   // All results, one after the other. Inputs are found by their names: position.*, velocity.*,
   // acceleration.* of the state, force.* of `force`, which may be empty where the program takes
   // none.
