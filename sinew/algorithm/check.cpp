@@ -192,7 +192,8 @@ void check_closure(const Terms& terms, const Algorithm& algorithm, const Closure
   for (std::size_t port = 0; port < closure.op->ports.size(); ++port) {
     const std::size_t count = closure.counts.empty() ? 1 : closure.counts[port];
     expected += count;
-    if (count == 1 || (closure.op->ports[port].many && count > 0)) continue;
+    // Where other ports come first, a list may be empty: a floating base without joints.
+    if (count == 1 || (closure.op->ports[port].many && (count > 0 || port > 0))) continue;
     complete = false;
     report.error({}, text(terms, closure.id),
                  fmt::format("{}: port {} has {} data blocks", describe(terms, closure),

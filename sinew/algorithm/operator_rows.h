@@ -21,5 +21,7 @@ struct OperatorRow {
 
 // operators_control.cpp: controllers, monitors, views, guarded motions
 std::span<const OperatorRow> control_operator_rows();
+// operators_relative.cpp: motion between two frames, coordinates of rotation
+std::span<const OperatorRow> relative_operator_rows();
 
 }  // namespace sinew::algorithm

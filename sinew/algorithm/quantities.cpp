@@ -36,6 +36,12 @@ constexpr std::array kQuantities = {
     Quantity{"jacobian-column", 6, "UNITLESS M", "PER-M UNITLESS", kTwist},
     Quantity{"jacobian-block", 36, "UNITLESS M", "", kTwist},  // six columns, one after the other
     Quantity{"jacobian", 0, "UNITLESS M", "", kTwist},
+    // Of a body that flows past a frame that stands still.
+    Quantity{"spatial-acceleration-twist", 6, "RAD-PER-SEC2 M-PER-SEC2", "", kTwist},
+    Quantity{"position-and-quaternion", 7, "M UNITLESS", "", kPose},
+    Quantity{"quaternion-column", 7, "M UNITLESS", "UNITLESS PER-M", kPose},
+    Quantity{"quaternion-block", 42, "M UNITLESS", "", kPose},
+    Quantity{"analytic-jacobian", 0, "M UNITLESS", "", kPose},
     Quantity{"momentum", 6, "KiloGM-M2-PER-SEC KiloGM-M-PER-SEC", "", kAt},
     Quantity{"momentum-column", 6, "KiloGM-M2 M-KiloGM", "M-KiloGM KiloGM", kAt},
     Quantity{"momentum-block", 36, "KiloGM-M2 M-KiloGM", "", kAt},

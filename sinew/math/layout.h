@@ -12,6 +12,7 @@
 #include "sinew/math/jacobian.h"
 #include "sinew/math/momentum.h"
 #include "sinew/math/pose.h"
+#include "sinew/math/relative_motion.h"
 #include "sinew/math/twist.h"
 #include "sinew/math/wrench.h"
 
@@ -178,6 +179,20 @@ struct Layout<MomentumBlock<S>> {
   }
   static void store(const MomentumBlock<S>& block, S* at) {
     for (int k = 0; k < 6; ++k) Layout<Momentum<S>>::store(block.columns[k], at + 6 * k);
+  }
+};
+
+// One column after the other.
+template <typename S>
+struct Layout<QuaternionBlock<S>> {
+  static constexpr std::uint32_t kSize = 42;
+  static QuaternionBlock<S> load(const S* at) {
+    QuaternionBlock<S> block;
+    for (int k = 0; k < 6; ++k) block.columns[k] = Layout<FloatingPosition<S>>::load(at + 7 * k);
+    return block;
+  }
+  static void store(const QuaternionBlock<S>& block, S* at) {
+    for (int k = 0; k < 6; ++k) Layout<FloatingPosition<S>>::store(block.columns[k], at + 7 * k);
   }
 };
 

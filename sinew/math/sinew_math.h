@@ -193,5 +193,6 @@ void sinew_floating_momentum_matrix_from_columns(const double *const columns[], 
 #endif
 
 #include "sinew_math_control.h"
+#include "sinew_math_relative.h"
 
 #endif

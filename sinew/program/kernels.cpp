@@ -14,6 +14,7 @@
 #include "sinew/program/kernels_constraints.h"
 #include "sinew/program/kernels_control.h"
 #include "sinew/program/kernels_many.h"
+#include "sinew/program/kernels_relative.h"
 
 namespace sinew::program {
 namespace {
@@ -259,6 +260,7 @@ std::vector<Kernel> make_kernels() {
           []<typename S>(const S& a, const S& b) { return S(a - b); }),
   };
   for (const Kernel& kernel : kernels_of_control()) rows.push_back(kernel);
+  for (const Kernel& kernel : kernels_of_relative_motion()) rows.push_back(kernel);
   for (const Kernel& kernel : kernels_of_many()) rows.push_back(kernel);
   for (const Kernel& kernel : constraint_kernels()) rows.push_back(kernel);
   std::sort(rows.begin(), rows.end(),

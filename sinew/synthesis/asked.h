@@ -17,6 +17,9 @@ struct AskedQuantity {
   std::string_view slot;   // where the data block then is; also the output's name before the dot
   bool regroups;           // the same after inertias have been regrouped (regroup.h)
   bool dynamic;            // speaks of masses: the whole robot matters, not the way to a tip alone
+  // What the planner must see to between any two frames; empty: it is of one element alone. The
+  // same as `needs` where there is no shorter way from the base.
+  std::string_view between = {};
 };
 
 struct GivenQuantity {

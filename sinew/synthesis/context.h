@@ -16,6 +16,7 @@
 #include "sinew/graph/store.h"
 #include "sinew/synthesis/external_wrenches.h"
 #include "sinew/synthesis/query.h"
+#include "sinew/synthesis/relation.h"
 #include "sinew/synthesis/robot.h"
 #include "sinew/synthesis/step.h"
 
@@ -62,6 +63,7 @@ struct Context {
   // Of each body: mass, first moment, rotational inertia; as stated, or regrouped (regroup.h).
   std::unordered_map<Id, std::array<double, 10>> inertias = {};
   std::vector<ExternalWrench> wrenches = {};
+  std::vector<Relation> relations = {};  // motions that are asked for between any two frames
   Blackboard board = {};
   const Step* step = nullptr;  // whose pass is running
 

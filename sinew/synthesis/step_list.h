@@ -65,4 +65,7 @@ Step potential_energy_step();
 // steps_jacobian.cpp
 Step jacobian_step();
 
+// steps_between.cpp: between any two frames
+std::vector<Step> between_steps();
+
 }  // namespace sinew::synthesis

@@ -1,9 +1,10 @@
 #include "sinew/synthesis/step_list.h"
 
 namespace sinew::synthesis {
+namespace {
 
-const std::vector<Step>& steps() {
-  static const std::vector<Step> list = {
+std::vector<Step> make_steps() {
+  std::vector<Step> list = {
       joint_pose_step(),
       pose_step(),
       frame_pose_step(),
@@ -48,6 +49,14 @@ const std::vector<Step>& steps() {
       centroidal_momentum_matrix_step(),
       jacobian_step(),
   };
+  for (const Step& step : between_steps()) list.push_back(step);
+  return list;
+}
+
+}  // namespace
+
+const std::vector<Step>& steps() {
+  static const std::vector<Step> list = make_steps();
   return list;
 }
 

@@ -24,10 +24,12 @@ using algorithm::kAlgorithmNamespace;
 struct Wanted {
   const AskedQuantity* quantity;
   Id element;
+  std::vector<Id> frames;  // the way to them matters
 };
 
 struct Resolved {
   std::vector<Wanted> wanted;
+  std::vector<Relation> relations;
   std::vector<Wish> wishes;
   bool dynamic = false;
   bool regroups = true;
@@ -101,6 +103,26 @@ std::vector<Id> shares(graph::Store& store, const graph::View& view, const Robot
   return pairs;
 }
 
+// Whether it takes the longer way, by what lies between two frames.
+bool is_between(const Query& query, const Asked& asked, const AskedQuantity& row) {
+  if (row.between.empty()) return false;
+  const bool from_base = asked.with_respect_to.empty() || asked.with_respect_to == kBase;
+  const bool seen_by_base = asked.seen_by.empty() || asked.seen_by == kBase;
+  const bool spatial = row.name == "acceleration-twist" && query.frames == Frames::kStationary;
+  return !from_base || !seen_by_base || spatial || row.between == row.needs;
+}
+
+// Of what is no motion of a frame.
+void check_directions(const Asked& asked, const AskedQuantity& row) {
+  if (!row.between.empty() || (asked.with_respect_to.empty() && asked.seen_by.empty())) return;
+  throw Error(Problem{{},
+                      asked.of,
+                      fmt::format("{} is of no two frames and has directions of its own", row.name),
+                      "leave out with-respect-to and seen-by",
+                      {},
+                      {}});
+}
+
 Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robot,
                  const Query& query, std::span<const ExternalWrench> wrenches, Report& report) {
   Resolved resolved;
@@ -118,12 +140,21 @@ Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robo
     }
     resolved.dynamic |= row->dynamic;
     resolved.regroups &= row->regroups;
-    resolved.wishes.push_back({std::string(row->needs), asked.quantity});
+    const bool between = is_between(query, asked, *row);
+    resolved.wishes.push_back({std::string(between ? row->between : row->needs), asked.quantity});
     try {
+      if (!between) check_directions(asked, *row);
       for (const Id element : row->name == "joint-force-share"
                                   ? shares(store, view, robot, query, wrenches)
-                                  : elements(store, view, robot, query, asked, row->element))
-        resolved.wanted.push_back({row, element});
+                                  : elements(store, view, robot, query, asked, row->element)) {
+        if (!between) {
+          resolved.wanted.push_back({row, element, {element}});
+          continue;
+        }
+        const Relation one = relation_of(store, view, robot, asked, element);
+        resolved.wanted.push_back({row, one.node, {one.of, one.with_respect_to, one.seen_by}});
+        resolved.relations.push_back(one);
+      }
     } catch (const Error& error) {
       for (const Problem& problem : error.problems()) report.add(problem);
     }
@@ -185,8 +216,9 @@ void write_asks(graph::Store& store, graph::Transaction& transaction, Id algorit
 void set_scope(Context& context, const Resolved& resolved) {
   if (resolved.dynamic) return;
   for (const Wanted& wanted : resolved.wanted)
-    for (const std::size_t joint : path_to(context.robot, context.view, wanted.element))
-      context.scope.insert(context.robot.joints[joint].frame);
+    for (const Id frame : wanted.frames)
+      for (const std::size_t joint : path_to(context.robot, context.view, frame))
+        context.scope.insert(context.robot.joints[joint].frame);
 }
 
 // The planner's sweeps, or those that somebody wrote.
@@ -269,6 +301,7 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
                                 {robot.root_body})
                 : robot.root_body};
   context.wrenches = wrenches;
+  context.relations = resolved.relations;
   if (falls && !gravity_varies(query)) context.gravity = gravity(context, result.notes);
   context.inertias = stated_inertias(context);
   if (query.regroup && resolved.regroups) regroup(context, context.inertias);
