@@ -34,6 +34,8 @@ std::string_view to_string(Status status) {
       return "not finite, or not a unit quaternion";
     case Status::kTooLate:
       return "older than all that is kept";
+    case Status::kReadOnly:
+      return "derived, can only be read";
     case Status::kStatic:
       return "static, and has its value";
   }

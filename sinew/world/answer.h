@@ -27,6 +27,7 @@ enum class Status : std::uint8_t {
   kOutOfOrder,     // write: the stamp is not later than the last one; see `correct`
   kNotANumber,     // write: a number is not finite, or a quaternion not of length one
   kTooLate,        // write: older than all that the ring holds
+  kReadOnly,       // write: a derived data block
   kStatic,         // write: a static measurement has its value already
 };
 std::string_view to_string(Status status);

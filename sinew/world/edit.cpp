@@ -124,6 +124,15 @@ MeasurementId Edit::add_measurement(const MeasurementSpec& spec) {
   }
   const Name name = new_name(spec.name);
   const auto index = static_cast<Index>(next_.measurements.size());
+  const std::shared_ptr<const BlockSet> blocks =
+      make_block_set(std::string(spec.name), spec.blocks, spec.quantity == Quantity::kPose, values);
+  const Epoch epoch = world_->epoch.load();
+  auto block_cells = std::make_shared<std::vector<std::shared_ptr<Cell>>>();
+  for (std::size_t i = 0; blocks && i < blocks->blocks.size(); ++i) {
+    new_name(blocks->blocks[i].name);
+    block_cells->push_back(
+        std::make_shared<Cell>(blocks->blocks[i].words(), kBlockCapacity, world_->token, epoch));
+  }
   // One slot is always under the writer's pen.
   const std::uint32_t capacity = std::min(spec.capacity + 1, kMaximumCapacity);
   next_.measurements.edit(index, token_) = {
@@ -132,8 +141,10 @@ MeasurementId Edit::add_measurement(const MeasurementSpec& spec) {
       .next = relation.first_measurement,
       .quantity = spec.quantity,
       .alive = true,
-      .cell = std::make_shared<Cell>(values, capacity, world_->token, world_->epoch.load()),
-      .model = std::make_shared<const MeasurementModel>(spec.model)};
+      .cell = std::make_shared<Cell>(values, capacity, world_->token, epoch),
+      .model = std::make_shared<const MeasurementModel>(spec.model),
+      .blocks = blocks,
+      .block_cells = blocks ? block_cells : nullptr};
   next_.relations.edit(spec.relation.index, token_).first_measurement = index;
   next_.by_name.edit(name.value, token_) = {ElementKind::kMeasurement, index};
   touch(ElementKind::kMeasurement, index);
@@ -154,6 +165,11 @@ void Edit::set_value(MeasurementId measurement, Stamp stamp, std::span<const dou
   }
   Ring* none = nullptr;
   record.cell->append(stamp, checked.data(), world_->epoch.load(), none);
+  for (std::size_t i = 0; record.blocks && i < record.blocks->blocks.size(); ++i) {
+    double numbers[kMaximumValues];
+    convert(record.blocks->blocks[i], checked.data(), numbers);
+    (*record.block_cells)[i]->append(stamp, numbers, world_->epoch.load(), none);
+  }
 }
 
 MeasurementId Edit::add_static(std::string_view relation_iri, FrameId of, FrameId with_respect_to,

@@ -12,9 +12,7 @@ void let_go(const std::shared_ptr<WorldImpl>& world, const std::unique_ptr<Write
   if (!world || !state) return;
   const std::lock_guard lock(world->editing);
   std::erase(world->writers, state.get());
-  for (const auto& target : state->targets) {
-    target->cell->claimed_by.clear();
-  }
+  state->each([](WriterState::Target& target) { target.cell->claimed_by.clear(); });
 }
 
 // While one lives, `clone` waits for the write; the epoch is one that no clone has seen yet.
@@ -73,6 +71,34 @@ bool make_acceptable(bool is_pose, double* values, std::size_t count) {
   return true;
 }
 
+// Appends a value and its blocks, unseen until the batch is committed.
+void prepare(WriterState::Target& target, Stamp stamp, const double* values, Epoch epoch) {
+  for (std::size_t i = 0; i < target.blocks_targets.size(); ++i) {
+    double numbers[kMaximumValues];
+    convert(target.blocks->blocks[i], values, numbers);
+    Spare spare(*target.blocks_targets[i]);
+    target.blocks_targets[i]->cell->prepare(stamp, numbers, epoch, spare.ring);
+  }
+  Spare spare(target);
+  target.cell->prepare(stamp, values, epoch, spare.ring);
+}
+
+// Even: not committed. The heads of the last batch were all set before it returned.
+std::uint64_t open_batch(BatchState& state) {
+  const std::uint64_t batch = state.load(std::memory_order_relaxed) + 1;
+  state.store(batch, std::memory_order_release);
+  return batch;
+}
+
+void commit_batch(WriterState& state, std::uint64_t batch) {
+  state.batch->store(batch + 1, std::memory_order_release);
+  // Real-time blocks come first among a measurement's.
+  for (const auto& target : state.targets) {
+    for (const auto& block : target->blocks_targets) block->cell->finish();
+    target->cell->finish();
+  }
+}
+
 }  // namespace
 
 Writer::Writer(std::shared_ptr<WorldImpl> world, std::unique_ptr<WriterState> state)
@@ -91,7 +117,15 @@ Status Writer::write_values(Stamp stamp, const double* values, bool correction) 
   const std::optional<Stamp> last = last_stamp(cell);
   const bool past = last && stamp <= *last;
   if (past && !correction) return Status::kOutOfOrder;
+  // Blocks hold the last value; a past one does not touch them, and the last one has no new stamp.
+  if (past && target.blocks && stamp == *last) return Status::kOutOfOrder;
   const Writing writing(*state_, *world_);
+  if (target.blocks && !past) {
+    const std::uint64_t batch = open_batch(*state_->batch);
+    prepare(target, stamp, values, writing.epoch);
+    commit_batch(*state_, batch);
+    return Status::kOk;
+  }
   Spare spare(target);
   if (past) {
     return cell.correct(stamp, values, writing.epoch, spare.ring) ? Status::kOk : Status::kTooLate;
@@ -132,6 +166,20 @@ Status Writer::correct(Stamp stamp, std::span<const double> values) {
   return write_values(stamp, values.data(), true);
 }
 
+Status Writer::write_block(std::size_t block, Stamp stamp, const void* value, std::size_t size) {
+  const WriterState::Target& target = *state_->targets.front();
+  if (!target.blocks || block >= target.blocks->blocks.size()) return Status::kNotANumber;
+  const DataBlock& from = target.blocks->blocks[block];
+  if (size != from.bytes) return Status::kNotANumber;
+  if (!from.to_canonical) return Status::kReadOnly;
+  double canonical[kMaximumValues];
+  if (!from.to_canonical->run(value, canonical)) return Status::kNotANumber;
+  if (!make_acceptable(target.is_pose, canonical, target.cell->values())) {
+    return Status::kNotANumber;
+  }
+  return write_values(stamp, canonical, false);
+}
+
 BatchWriter::BatchWriter(std::shared_ptr<WorldImpl> world, std::unique_ptr<WriterState> state)
     : world_(std::move(world)), state_(std::move(state)) {
   for (const auto& target : state_->targets) size_ += target->cell->values();
@@ -158,21 +206,17 @@ Status BatchWriter::write(Stamp stamp, std::span<const double> values) {
     from += count;
   }
   const Writing writing(*state_, *world_);
-  // Even: not committed. The heads of the last batch were all set before it returned.
-  const std::uint64_t batch = state_->batch->load(std::memory_order_relaxed);
-  state_->batch->store(batch + 1, std::memory_order_release);
+  const std::uint64_t batch = open_batch(*state_->batch);
   from = values.data();
   for (const auto& target : state_->targets) {
     double checked[kMaximumValues];
     const std::size_t count = target->cell->values();
     std::copy(from, from + count, checked);
     make_acceptable(target->is_pose, checked, count);
-    Spare spare(*target);
-    target->cell->prepare(stamp, checked, writing.epoch, spare.ring);
+    prepare(*target, stamp, checked, writing.epoch);
     from += count;
   }
-  state_->batch->store(batch + 2, std::memory_order_release);
-  for (const auto& target : state_->targets) target->cell->finish();
+  commit_batch(*state_, batch);
   return Status::kOk;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "sinew/world/answer.h"
+#include "sinew/world/block_set.h"
 #include "sinew/world/cell.h"
 
 namespace sinew::world {
@@ -21,15 +22,26 @@ struct WorldImpl;
 
 // What a clone has to know of a handle: whether a write is under way, and its spares.
 struct WriterState {
-  std::atomic<std::uint64_t> active = 0;  // odd while a write is under way
   struct Target {
     std::shared_ptr<Cell> cell;
     // Two: while a write uses one up, `clone` may already count on the next write's.
     std::atomic<Ring*> spares[2] = {nullptr, nullptr};
     bool is_pose = false;
+    std::shared_ptr<const BlockSet> blocks;               // of a measurement
+    std::vector<std::unique_ptr<Target>> blocks_targets;  // a cell for each of them
   };
+  std::atomic<std::uint64_t> active = 0;  // odd while a write is under way
   std::vector<std::unique_ptr<Target>> targets;
-  std::shared_ptr<BatchState> batch;  // of a BatchWriter
+  std::shared_ptr<BatchState> batch;  // where one write changes several cells
+
+  // Calls visit(Target&) for every cell.
+  template <typename Visit>
+  void each(Visit&& visit) {
+    for (const auto& target : targets) {
+      visit(*target);
+      for (const auto& block : target->blocks_targets) visit(*block);
+    }
+  }
 };
 
 class Writer {
@@ -45,6 +57,9 @@ class Writer {
   // at most as many entries as the ring holds.
   Status correct(Stamp stamp, std::span<const double> values);
   Status correct(Stamp stamp, const Pose& pose);
+  // The value as one of the measurement's data blocks has it, `size` bytes; all blocks follow.
+  // kReadOnly when the block is derived, kNotANumber when the size is wrong.
+  Status write_block(std::size_t block, Stamp stamp, const void* value, std::size_t size);
 
  private:
   friend class World;

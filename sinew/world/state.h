@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "sinew/world/block_set.h"
 #include "sinew/world/cell.h"
 #include "sinew/world/ids.h"
 #include "sinew/world/life_cycle.h"
@@ -82,6 +83,8 @@ struct MeasurementRecord {
   bool alive = false;
   std::shared_ptr<Cell> cell;
   std::shared_ptr<const MeasurementModel> model;
+  std::shared_ptr<const BlockSet> blocks;  // none: null
+  std::shared_ptr<const std::vector<std::shared_ptr<Cell>>> block_cells;
 };
 
 struct ObjectRecord {

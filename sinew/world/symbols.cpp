@@ -94,7 +94,6 @@ void Symbols::describe(const State& state, ElementKind kind, Index index,
       const MeasurementRecord* const measurement = state.measurements.find(index);
       if (!measurement || !measurement->alive) return;
       const graph::Id node = iri(measurement->name);
-      const graph::Id block = terms.iri(names_.text(measurement->name) + "/data");
       const MeasurementModel& model = *measurement->model;
       add(node, type, world("Measurement"));
       add(iri(state.relations[measurement->relation].name), world("measured-by"), node);
@@ -103,8 +102,20 @@ void Symbols::describe(const State& state, ElementKind kind, Index index,
       if (!model.provenance.empty()) add(node, world("provenance"), terms.iri(model.provenance));
       if (!model.coord_frame.empty()) add(node, world("coord-frame"), terms.iri(model.coord_frame));
       for (const std::string& user : model.used_by) add(node, world("used-by"), terms.iri(user));
-      add(node, world("value"), block);
-      add(block, type, world("DataBlock"));
+      // The measurement's own numbers, and each block; all of them are consistent with that one.
+      const graph::Id own = terms.iri(names_.text(measurement->name) + "/data");
+      add(node, world("value"), own);
+      add(own, type, world("DataBlock"));
+      for (std::size_t i = 0; measurement->blocks && i < measurement->blocks->blocks.size(); ++i) {
+        const DataBlock& data = measurement->blocks->blocks[i];
+        const graph::Id block = terms.iri(data.name);
+        add(node, world("value"), block);
+        add(block, type, world("DataBlock"));
+        add(block, world("prototype"), terms.literal(data.prototype));
+        add(block, world("consistency"), own);
+        if (data.realtime) add(block, world("realtime"), terms.boolean(true));
+        if (!data.to_canonical) add(block, world("derived"), terms.boolean(true));
+      }
       return;
     }
   }

@@ -7,7 +7,7 @@
 //   R a rel:Pose | w:Joint | w:Property ; rel:of F ; rel:with-respect-to G ; w:suspended true
 //   M a w:Measurement ; w:of-relation R ; w:quantity "pose" ; w:life-cycle "static" ;
 //     w:provenance P ; w:coord-frame F ; w:used-by U ; w:value D
-//   D a w:DataBlock
+//   D a w:DataBlock ; w:prototype "ros_pose" ; w:consistency D0 ; w:realtime true ; w:derived true
 //   R w:measured-by M
 #pragma once
 

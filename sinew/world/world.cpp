@@ -98,7 +98,16 @@ Cell& own_cell(WorldImpl& world, MeasurementId measurement) {
   const auto cell = std::make_shared<Cell>(*record.cell, world.as_of(record.cell->owner()),
                                            world.token, world.epoch.load());
   State next = world.published();
-  next.measurements.edit(measurement.index, fresh_token()).cell = cell;
+  MeasurementRecord& mine = next.measurements.edit(measurement.index, fresh_token());
+  mine.cell = cell;
+  if (mine.block_cells) {
+    auto cells = std::make_shared<std::vector<std::shared_ptr<Cell>>>();
+    for (const auto& block : *mine.block_cells) {
+      cells->push_back(std::make_shared<Cell>(*block, world.as_of(block->owner()), world.token,
+                                              world.epoch.load()));
+    }
+    mine.block_cells = cells;
+  }
   world.publish(std::move(next));
   return *cell;
 }
@@ -233,16 +242,30 @@ std::unique_ptr<WriterState> claim_cells(WorldImpl& world,
     for (const auto& other : state->targets) {
       if (other->cell.get() == &cell) refuse(iri, "claimed twice for one batch", "once");
     }
+    const MeasurementRecord& own = world.state.measurements[measurement.index];
     auto target = std::make_unique<WriterState::Target>();
-    target->cell = world.state.measurements[measurement.index].cell;
+    target->cell = own.cell;
     target->is_pose = record.quantity == Quantity::kPose;
-    for (auto& spare : target->spares) {
-      spare.store(cell.spare(world.family->oldest_seen(world.token)));
+    target->blocks = own.blocks;
+    if (own.block_cells) {
+      for (const auto& block : *own.block_cells) {
+        target->blocks_targets.push_back(std::make_unique<WriterState::Target>());
+        target->blocks_targets.back()->cell = block;
+      }
     }
     state->targets.push_back(std::move(target));
   }
-  for (const auto& target : state->targets) {
-    target->cell->claimed_by = who.provenance.empty() ? "unnamed" : std::string(who.provenance);
+  bool several = state->targets.size() > 1;
+  state->each([&](WriterState::Target& target) {
+    target.cell->claimed_by = who.provenance.empty() ? "unnamed" : std::string(who.provenance);
+    for (auto& spare : target.spares) {
+      spare.store(target.cell->spare(world.family->oldest_seen(world.token)));
+    }
+    several = several || target.blocks;
+  });
+  if (several) {
+    state->batch = std::make_shared<BatchState>(kBatchIdle);
+    state->each([&](WriterState::Target& target) { target.cell->join_batch(state->batch); });
   }
   world.writers.push_back(state.get());
   return state;
@@ -257,9 +280,12 @@ Writer World::claim(MeasurementId measurement, const WriteContext& who) {
 
 BatchWriter World::claim(std::span<const MeasurementId> measurements, const WriteContext& who) {
   const std::lock_guard lock(impl_->editing);
+  if (measurements.empty()) refuse(impl_->iri, "a batch of nothing", "name the measurements");
   auto state = claim_cells(*impl_, measurements, who);
-  state->batch = std::make_shared<BatchState>(kBatchIdle);
-  for (const auto& target : state->targets) target->cell->join_batch(state->batch);
+  if (!state->batch) {
+    state->batch = std::make_shared<BatchState>(kBatchIdle);
+    state->targets.front()->cell->join_batch(state->batch);
+  }
   return BatchWriter(impl_, std::move(state));
 }
 
@@ -304,13 +330,13 @@ World World::clone() const {
   if (!original.writers.empty()) {
     const Epoch needed = original.family->oldest_seen(original.token);
     for (WriterState* const writer : original.writers) {
-      for (const auto& target : writer->targets) {
-        for (auto& spare : target->spares) {
+      writer->each([needed](WriterState::Target& target) {
+        for (auto& spare : target.spares) {
           if (!spare.load(std::memory_order_acquire)) {
-            spare.store(target->cell->spare(needed), std::memory_order_release);
+            spare.store(target.cell->spare(needed), std::memory_order_release);
           }
         }
-      }
+      });
     }
   }
   const Epoch as_of = original.epoch.fetch_add(1, std::memory_order_seq_cst);

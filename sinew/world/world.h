@@ -65,6 +65,7 @@ struct MeasurementSpec {
   MeasurementModel model = {};
   std::uint32_t capacity = kUsualCapacity;  // entries kept; rounded up to a power of two
   std::uint32_t values = 0;                 // of Quantity::kOther
+  BlocksSpec blocks = {};                   // the same value in other prototypes (block_set.h)
 };
 
 // Who writes. Every write carries it; a hook (set_write_guard) may refuse by it.
@@ -135,6 +136,18 @@ class World {
   };
   Status write_together(Stamp stamp, std::span<const Value> values, const WriteContext& who);
   void set_write_guard(WriteGuard guard);
+  // Data blocks, by their place in the measurement's block set. Writing one writes them all;
+  // reading several gives them as they were at one instant. Sizes in bytes must be the prototypes'.
+  std::size_t find_block(MeasurementId measurement, std::string_view iri) const;
+  Status write_block(MeasurementId measurement, std::size_t block, Stamp stamp, const void* value,
+                     std::size_t size, const WriteContext& who);
+  struct BlockBuffer {
+    std::size_t block;
+    void* value;
+    std::size_t size;
+  };
+  Status read_blocks(MeasurementId measurement, std::span<const BlockBuffer> buffers,
+                     Stamp* stamp = nullptr) const;
   // The numbers at one time, as queries see them; Status::kOk or why not.
   struct Sample {
     Status status = Status::kNoData;

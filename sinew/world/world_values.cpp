@@ -1,4 +1,7 @@
 // Writing and reading single measurements through the world, for whoever has no handle.
+#include <algorithm>
+#include <cstring>
+
 #include "sinew/world/impl.h"
 #include "sinew/world/reading.h"
 #include "sinew/world/refuse.h"
@@ -78,6 +81,80 @@ World::Sample sample(const WorldImpl& world, MeasurementId measurement, Stamp ti
   return result;
 }
 
+// One cell of a write that changes several.
+struct Pending {
+  Cell* cell;
+  std::vector<double> numbers;
+};
+
+// A measurement's data blocks, real-time ones first, then the measurement itself.
+void add_pending(const MeasurementRecord& record, std::vector<double> values,
+                 std::vector<Pending>& pending) {
+  for (std::size_t i = 0; record.blocks && i < record.blocks->blocks.size(); ++i) {
+    const DataBlock& block = record.blocks->blocks[i];
+    std::vector<double> numbers(block.words());
+    convert(block, values.data(), numbers.data());
+    pending.push_back({(*record.block_cells)[i].get(), std::move(numbers)});
+  }
+  pending.push_back({record.cell.get(), std::move(values)});
+}
+
+// Seen whole or not at all. Precondition: `editing` is held, and the stamp is later than all.
+void write_as_one(WorldImpl& world, Stamp stamp, const std::vector<Pending>& pending) {
+  const Epoch epoch = world.epoch.load(std::memory_order_relaxed);
+  const std::uint64_t batch = world.batch->load(std::memory_order_relaxed);
+  world.batch->store(batch + 1, std::memory_order_release);
+  for (const Pending& one : pending) {
+    one.cell->join_batch(world.batch);
+    SpareOnDemand spare(*one.cell, *world.family, epoch);
+    one.cell->prepare(stamp, one.numbers.data(), epoch, spare.ring);
+  }
+  world.batch->store(batch + 2, std::memory_order_release);
+  for (const Pending& one : pending) one.cell->finish();
+}
+
+Status write_checked(WorldImpl& world, MeasurementId measurement, Stamp stamp,
+                     const std::vector<double>& values) {
+  Cell& cell = own_cell(world, measurement);
+  const Epoch epoch = world.epoch.load(std::memory_order_relaxed);
+  const Cell::View view = cell.view(kNow);
+  const bool constant = is_static(world, measurement);
+  if (constant && view.count > 0) return Status::kStatic;
+  const MeasurementRecord& record = world.state.measurements[measurement.index];
+  if (view.count > 0 && stamp <= cell.stamp(view, view.count - 1)) {
+    // Blocks hold the last value; a past one does not touch them, and the last one has no new
+    // stamp.
+    if (record.blocks && stamp == cell.stamp(view, view.count - 1)) return Status::kOutOfOrder;
+    SpareOnDemand spare(cell, *world.family, epoch);
+    return cell.correct(stamp, values.data(), epoch, spare.ring) ? Status::kOk : Status::kTooLate;
+  }
+  if (record.blocks) {
+    std::vector<Pending> pending;
+    add_pending(record, values, pending);
+    write_as_one(world, stamp, pending);
+  } else {
+    SpareOnDemand spare(cell, *world.family, epoch);
+    cell.append(stamp, values.data(), epoch, spare.ring);
+  }
+  // A constant becomes part of the plans.
+  if (constant) world.publish(world.published());
+  return Status::kOk;
+}
+
+const DataBlock& block_of(const WorldImpl& world, const MeasurementRecord& record,
+                          std::size_t block, std::size_t size) {
+  const std::string& iri = world.family->names.text(record.name);
+  if (!record.blocks || block >= record.blocks->blocks.size()) {
+    refuse(iri, "has no data block number " + std::to_string(block), "see World::find_block");
+  }
+  const DataBlock& found = record.blocks->blocks[block];
+  if (found.bytes != size) {
+    refuse(found.name, std::to_string(size) + " bytes for a " + found.prototype,
+           std::to_string(found.bytes));
+  }
+  return found;
+}
+
 }  // namespace
 
 void World::set_write_guard(WriteGuard guard) {
@@ -97,55 +174,86 @@ Status World::write(MeasurementId measurement, Stamp stamp, std::span<const doub
   const std::lock_guard lock(impl_->editing);
   std::vector<double> checked(values.begin(), values.end());
   const Status status = check(*impl_, measurement, checked, who.provenance);
-  if (status != Status::kOk) return status;
-  Cell& cell = own_cell(*impl_, measurement);
-  const Epoch epoch = impl_->epoch.load(std::memory_order_relaxed);
-  const Cell::View view = cell.view(kNow);
-  const bool constant = is_static(*impl_, measurement);
-  if (constant && view.count > 0) return Status::kStatic;
-  SpareOnDemand spare(cell, *impl_->family, epoch);
-  if (view.count > 0 && stamp <= cell.stamp(view, view.count - 1)) {
-    return cell.correct(stamp, checked.data(), epoch, spare.ring) ? Status::kOk : Status::kTooLate;
-  }
-  cell.append(stamp, checked.data(), epoch, spare.ring);
-  // A constant becomes part of the plans.
-  if (constant) impl_->publish(impl_->published());
-  return Status::kOk;
+  return status == Status::kOk ? write_checked(*impl_, measurement, stamp, checked) : status;
 }
 
 Status World::write_together(Stamp stamp, std::span<const Value> values, const WriteContext& who) {
   const std::lock_guard lock(impl_->editing);
-  struct Checked {
-    Cell* cell;
-    std::vector<double> values;
-  };
-  std::vector<Checked> checked;
+  std::vector<Pending> pending;
+  std::vector<MeasurementId> seen;
   for (const Value& value : values) {
-    checked.push_back({nullptr, {value.values.begin(), value.values.end()}});
-    const Status status = check(*impl_, value.measurement, checked.back().values, who.provenance);
+    std::vector<double> checked(value.values.begin(), value.values.end());
+    const Status status = check(*impl_, value.measurement, checked, who.provenance);
     if (status != Status::kOk) return status;
     if (is_static(*impl_, value.measurement)) return Status::kStatic;
-    Cell& cell = own_cell(*impl_, value.measurement);
-    for (const Checked& other : checked) {
-      if (other.cell == &cell) {
-        refuse(name(value.measurement), "written twice in one batch", "one value for each");
-      }
+    if (std::find(seen.begin(), seen.end(), value.measurement) != seen.end()) {
+      refuse(name(value.measurement), "written twice in one batch", "one value for each");
     }
-    checked.back().cell = &cell;
+    seen.push_back(value.measurement);
+    const Cell& cell = own_cell(*impl_, value.measurement);
     const Cell::View view = cell.view(kNow);
     if (view.count > 0 && stamp <= cell.stamp(view, view.count - 1)) return Status::kOutOfOrder;
+    add_pending(impl_->state.measurements[value.measurement.index], std::move(checked), pending);
   }
-  const Epoch epoch = impl_->epoch.load(std::memory_order_relaxed);
-  const std::uint64_t batch = impl_->batch->load(std::memory_order_relaxed);
-  impl_->batch->store(batch + 1, std::memory_order_release);
-  for (const Checked& one : checked) {
-    one.cell->join_batch(impl_->batch);
-    SpareOnDemand spare(*one.cell, *impl_->family, epoch);
-    one.cell->prepare(stamp, one.values.data(), epoch, spare.ring);
-  }
-  impl_->batch->store(batch + 2, std::memory_order_release);
-  for (const Checked& one : checked) one.cell->finish();
+  write_as_one(*impl_, stamp, pending);
   return Status::kOk;
+}
+
+std::size_t World::find_block(MeasurementId measurement, std::string_view iri) const {
+  const State state = impl_->published();
+  const MeasurementRecord& record = alive(*impl_, state, measurement);
+  const auto found = record.blocks ? record.blocks->find(iri) : std::nullopt;
+  if (!found) {
+    refuse(iri, "is no data block of " + impl_->family->names.text(record.name),
+           "one that was declared with the measurement");
+  }
+  return *found;
+}
+
+Status World::write_block(MeasurementId measurement, std::size_t block, Stamp stamp,
+                          const void* value, std::size_t size, const WriteContext& who) {
+  const std::lock_guard lock(impl_->editing);
+  const MeasurementRecord record = alive(*impl_, impl_->state, measurement);
+  const DataBlock& from = block_of(*impl_, record, block, size);
+  if (!from.to_canonical) return Status::kReadOnly;
+  std::vector<double> canonical(record.cell->values());
+  if (!from.to_canonical->run(value, canonical.data())) return Status::kNotANumber;
+  const Status status = check(*impl_, measurement, canonical, who.provenance);
+  return status == Status::kOk ? write_checked(*impl_, measurement, stamp, canonical) : status;
+}
+
+Status World::read_blocks(MeasurementId measurement, std::span<const BlockBuffer> buffers,
+                          Stamp* stamp) const {
+  const State state = impl_->published();
+  const MeasurementRecord& record = alive(*impl_, state, measurement);
+  if (buffers.size() > kMaximumBlocksOfMeasurement) {
+    refuse(impl_->family->names.text(record.name), "more blocks asked than there can be",
+           "each once");
+  }
+  for (const BlockBuffer& buffer : buffers) block_of(*impl_, record, buffer.block, buffer.size);
+  const Epoch as_of = impl_->as_of(record.cell->owner());
+  for (int attempt = 0; attempt < kReadAttempts; ++attempt) {
+    Cell::View views[kMaximumBlocksOfMeasurement];
+    bool whole = true;
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+      views[i] = (*record.block_cells)[buffers[i].block]->view(as_of);
+      whole = whole && views[i].settled;
+      if (whole && views[i].count == 0) return Status::kNoData;
+    }
+    for (std::size_t i = 0; whole && i < buffers.size(); ++i) {
+      whole = (*record.block_cells)[buffers[i].block]->unchanged(views[i], as_of);
+    }
+    for (std::size_t i = 0; whole && i < buffers.size(); ++i) {
+      const Cell& cell = *(*record.block_cells)[buffers[i].block];
+      double numbers[kMaximumValues];
+      cell.read(views[i], views[i].count - 1, numbers, cell.values());
+      if (stamp) *stamp = cell.stamp(views[i], views[i].count - 1);
+      whole = cell.intact(views[i], views[i].count - 1, as_of);
+      std::memcpy(buffers[i].value, numbers, buffers[i].size);
+    }
+    if (whole) return Status::kOk;
+  }
+  return Status::kBusy;
 }
 
 World::Sample World::latest(MeasurementId measurement, Stamp now) const {
