@@ -386,10 +386,19 @@ RelationId Edit::detach(FrameId frame, FrameId parent, Stamp now, std::string_vi
   return relation;
 }
 
-void Edit::commit() {
+FrameId Edit::find_frame(std::string_view iri) const {
+  const Element element = next_.find(world_->family->names.find(iri));
+  return element.kind == ElementKind::kFrame ? FrameId{element.index} : FrameId{};
+}
+
+void Edit::commit_keeping_lock() {
   if (!lock_) refuse(world_->iri, "an edit that was committed before", "begin a new one");
   if (world_->symbols) world_->symbols->update(world_->state, next_, touched_);
   world_->publish(std::move(next_));
+}
+
+void Edit::commit() {
+  commit_keeping_lock();
   lock_.unlock();
 }
 

@@ -35,6 +35,7 @@ class Edit {
   // A first value for a measurement that this edit has added; nobody reads it yet.
   void set_value(MeasurementId measurement, Stamp stamp, std::span<const double> values);
 
+  FrameId find_frame(std::string_view iri) const;  // index kNone where there is none
   // The pose as this edit's structure has it.
   PoseAnswer pose(FrameId of, FrameId with_respect_to, Stamp now) const;
   const State& state() const { return next_; }
@@ -46,6 +47,7 @@ class Edit {
   friend struct Merger;
   explicit Edit(std::shared_ptr<WorldImpl> world);
   Name new_name(std::string_view iri);
+  void commit_keeping_lock();  // no other edit comes between; the edit's end lets the lock go
   void touch(ElementKind kind, Index index) { touched_.emplace(kind, index); }
   void unlink(Index relation, Index frame);
   RelationId attach_with(FrameId frame, FrameId parent, const Pose& pose, Stamp now,

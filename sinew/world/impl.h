@@ -99,6 +99,10 @@ struct SpareOnDemand {
 // put in its place (which is no structural change for others, but prepared queries must notice).
 Cell& own_cell(WorldImpl& world, MeasurementId measurement);
 
+// Writes a value that `acceptable` has passed; `editing` is held.
+Status write_checked(WorldImpl& world, MeasurementId measurement, Stamp stamp,
+                     const std::vector<double>& values);
+
 // Whether numbers can be a value of this quantity; makes quaternions exactly unit.
 bool acceptable(Quantity quantity, std::span<double> values);
 

@@ -189,11 +189,13 @@ struct Planner {
     return found.empty() ? kNone : add_candidate(found.front());
   }
 
-  void describe(Index at, bool inverse, const std::vector<Index>& found, bool is_constant) {
+  void describe(Index at, bool inverse, const std::vector<Index>& found, bool is_constant,
+                const Pose& value = {}) {
     const RelationRecord& relation = state.relations[at];
     plan->symbolic.push_back({inverse ? "compose-inverse" : "compose", names.text(relation.name),
                               names.text(state.measurements[found.front()].name),
-                              std::string(to_string(position_of(relation.kind))), is_constant});
+                              std::string(to_string(position_of(relation.kind))), is_constant,
+                              inverse, RelationId{at}, MeasurementId{found.front()}, value});
   }
 
   void add_step(Index at, bool inverse) {
@@ -210,7 +212,7 @@ struct Planner {
                                                        : prismatic(values[0]))
                      : load_pose(values.data());
       add_constant(inverse ? invert(X) : X);
-      describe(at, inverse, found, true);
+      describe(at, inverse, found, true, X);
       return;
     }
     if (joint && !inverse) add_constant(relation.placement);

@@ -63,6 +63,10 @@ struct SymbolicStep {
   std::string measurement;  // IRI of the one that is used first
   std::string quantity;     // "pose", "joint-position": then through the joint's placement
   bool constant = false;    // may be composed once
+  bool inverse = false;     // "compose-inverse": walked from `of` to `with-respect-to`
+  RelationId relation_id;
+  MeasurementId measurement_id;
+  Pose value;  // of a constant: the relation's pose
 };
 
 class PreparedPose {

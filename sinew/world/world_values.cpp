@@ -113,6 +113,8 @@ void write_as_one(WorldImpl& world, Stamp stamp, const std::vector<Pending>& pen
   for (const Pending& one : pending) one.cell->finish();
 }
 
+}  // namespace
+
 Status write_checked(WorldImpl& world, MeasurementId measurement, Stamp stamp,
                      const std::vector<double>& values) {
   Cell& cell = own_cell(world, measurement);
@@ -140,6 +142,8 @@ Status write_checked(WorldImpl& world, MeasurementId measurement, Stamp stamp,
   if (constant) world.publish(world.published());
   return Status::kOk;
 }
+
+namespace {
 
 const DataBlock& block_of(const WorldImpl& world, const MeasurementRecord& record,
                           std::size_t block, std::size_t size) {

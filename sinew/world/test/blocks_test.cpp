@@ -209,7 +209,7 @@ TEST(Blocks, FaultsAreNamed) {
                 .find("http://x/n: there is no data prototype 'nothing'"),
             std::string::npos);
   EXPECT_NE(
-      refused({.library = library(), .blocks = {{"http://x/p", "pendant"}}}).find("JointPosition"),
+      refused({.library = library(), .blocks = {{"http://x/p", "pendant"}}}).find("sinew_world_pose"),
       std::string::npos);
   EXPECT_NE(refused({.library = library(),
                      .canonical = "controller_pose",
