@@ -26,6 +26,7 @@ int run_weave(Arguments arguments);
 int run_stats(Arguments arguments);
 int run_generate(Arguments arguments);
 int run_run(Arguments arguments);
+int run_plot(Arguments arguments);
 int run_bench(Arguments arguments);
 int run_explain(Arguments arguments);
 int run_convert(Arguments arguments);

@@ -1,9 +1,10 @@
-// sinew run MODEL… --solver NAME --input ROWS.csv: rows in, rows out.
+// sinew run MODEL… --solver NAME --input ROWS.csv: rows in, rows out; with --robot: in a loop.
 #include <algorithm>
 #include <iostream>
 
 #include "csv.h"
 #include "evaluator.h"
+#include "live.h"
 #include "options.h"
 #include "output.h"
 #include "pipeline.h"
@@ -45,7 +46,7 @@ std::vector<std::size_t> match_columns(const std::vector<std::string>& inputs, c
 int run_run(Arguments arguments) {
   CLI::App app(
       "Evaluate a query for every row of a CSV file: columns are named like the program's inputs "
-      "(position.joint1, …), one row is one evaluation.",
+      "(position.joint1, …), one row is one evaluation. Or, with --robot, run it in a loop.",
       "sinew run");
   ModelOptions models_options;
   QueryOptions query;
@@ -54,10 +55,17 @@ int run_run(Arguments arguments) {
   add_model_options(app, models_options);
   add_query_options(app, query);
   add_derivative_option(app, query);
-  app.add_option("--input", input, "CSV file with the inputs, - for standard input")->required();
+  app.add_option("--input", input, "CSV file with the inputs, - for standard input");
   app.add_option("-o,--output", output, "CSV file for the results (default: standard output)");
   app.add_flag("--interpret", interpret, "Evaluate closure by closure instead of compiling");
+  LiveOptions live;
+  add_live_options(app, live);
   if (const auto code = parse(app, std::move(arguments))) return *code;
+  if (input.empty() == live.robot.empty()) {
+    std::cerr << "sinew run: give --input ROWS.csv, or --robot NAME\n";
+    return kBadUsage;
+  }
+  if (!live.robot.empty()) return run_live(models_options, query, live, interpret);
 
   const Table rows = read_csv(read_input(input), input);
   const auto models = load(models_options);

@@ -7,6 +7,7 @@
 #include "output.h"
 #include "pipeline.h"
 #include "prefixes.h"
+#include "robot_tree.h"
 #include "write_models.h"
 
 namespace sinew::cli {
@@ -14,8 +15,9 @@ namespace sinew::cli {
 int run_weave(Arguments arguments) {
   CLI::App app(
       "Rewrite an algorithm by a SPARQL update, which sees the algorithm's triples as its default "
-      "graph. The "
-      "result is checked as a whole; one that is at fault is refused and nothing is written.",
+      "graph and, with --model, the robot's normalised tree as the named graph "
+      "https://w3id.org/sinew/normalised. Updates that ship are in weaves/. The result is checked "
+      "as a whole; one that is at fault is refused and nothing is written.",
       "sinew weave");
   ModelOptions models_options;
   models_options.files.resize(1);
@@ -24,11 +26,15 @@ int run_weave(Arguments arguments) {
       ->required();
   app.add_option("UPDATE", update, "SPARQL update; the project's prefixes need no declaration")
       ->required();
+  std::vector<std::string> robot;
+  app.add_option("--model", robot, "Models of the robot, for updates that ask for limits");
   app.add_option("-o,--output", output, "File for the new algorithm (default: standard output)");
   if (const auto code = parse(app, std::move(arguments))) return *code;
 
+  models_options.files.insert(models_options.files.end(), robot.begin(), robot.end());
   const auto models = load(models_options);
   const graph::Id algorithm = algorithm_of(*models, models_options, {});
+  if (!robot.empty()) model::write(robot_tree(*models, {}), models->store);
   const auto counts =
       algorithm::weave(models->store, algorithm, with_known_prefixes(read_input(update)), update);
   std::cerr << counts.added << " triples added, " << counts.removed << " removed\n";

@@ -15,6 +15,8 @@ using graph::Id;
 
 constexpr std::array<std::string_view, 4> kMeasured = {"joint-position", "joint-velocity",
                                                        "floating-position", "floating-velocity"};
+// What a joint does, not what it should do: set-points have slots of other names.
+constexpr std::array<std::string_view, 2> kMeasuredSlots = {"position", "velocity"};
 constexpr std::string_view kCommanded = "joint-force";
 
 bool is_robot(const Closure& closure) {
@@ -122,7 +124,8 @@ void attach_robot(graph::Store& store, Id algorithm, const RobotAttachment& atta
   for (const Block& block : model.blocks) {
     const std::string_view quantity = block.quantity->name;
     if (block.role == Role::kInput &&
-        std::find(kMeasured.begin(), kMeasured.end(), quantity) != kMeasured.end())
+        std::find(kMeasured.begin(), kMeasured.end(), quantity) != kMeasured.end() &&
+        std::find(kMeasuredSlots.begin(), kMeasuredSlots.end(), block.slot) != kMeasuredSlots.end())
       measured.push_back(block.id);
     if (block.output && block.role != Role::kInput && quantity == kCommanded)
       commanded.push_back(block.id);

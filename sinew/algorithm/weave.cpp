@@ -13,6 +13,9 @@ using graph::Id;
 using graph::Quad;
 using graph::Terms;
 
+// Written by `model` (model/tree.h), which may not be used here.
+constexpr std::string_view kNormalisedGraph = "https://w3id.org/sinew/normalised";
+
 // Terms of one dictionary in another. Blank nodes become fresh ones, so that none meets another by
 // its label.
 class Copier {
@@ -60,6 +63,8 @@ WeaveCounts weave(graph::Store& store, Id algorithm, std::string_view update,
   const Id woven = loom.terms().iri(store.terms().text(algorithm));
   graph::Transaction change = loom.begin();
   copy_graph(store.view(), algorithm, loom.terms(), change, {});
+  if (const Id tree = store.terms().find_iri(kNormalisedGraph))
+    copy_graph(store.view(), tree, loom.terms(), change, loom.terms().iri(kNormalisedGraph));
   rdf::sparql::UpdateOptions options;
   options.name = name;
   const rdf::sparql::UpdateCounts counts =

@@ -1,7 +1,9 @@
 // Weaving: an algorithm rewritten by a SPARQL update, for loggers, monitors, further outputs, other
 // operators.
 //
-// The update sees the algorithm's triples, and nothing else, as its default graph. The result must
+// The update sees the algorithm's triples as its default graph and, where the store has it, the
+// robot's normalised tree (docs/architecture.md) as a named graph, for limits and the like; nothing
+// else. It can change the algorithm only. The result must
 // be an algorithm as good as one that was synthesised: it is read and checked as a whole (check.h)
 // before it takes the old one's place. If it is not, or the update fails, the old one stays as it
 // was.

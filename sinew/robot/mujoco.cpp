@@ -12,6 +12,7 @@
 #include "sinew/base/error.h"
 #include "sinew/robot/mjcf.h"
 #include "sinew/runtime/published.h"
+#include "sinew/runtime/real_time.h"
 
 namespace sinew::robot {
 namespace {
@@ -21,6 +22,7 @@ using runtime::Nanoseconds;
 // A simulation that fell further behind the clock than this leaves time out instead of rushing.
 constexpr double kMaximumBehind_s = 0.05;
 constexpr std::size_t kSignals = 9;
+constexpr int kPriority = runtime::kDefaultPriority - 10;
 
 [[noreturn]] void fail(std::string what, std::string remedy) {
   throw Error(Problem{{}, "", std::move(what), std::move(remedy), {}, {}});
@@ -198,6 +200,7 @@ struct Mujoco::Simulation {
   }
 
   void run() {
+    if (options.real_time) runtime::become_real_time(kPriority);
     const Nanoseconds step_time = runtime::from_seconds(options.timestep_s);
     Nanoseconds next = runtime::now();
     while (!ending.load(std::memory_order_acquire)) {

@@ -21,6 +21,7 @@ struct MujocoOptions {
   Scene scene;
   double timestep_s = 0.0005;
   double lockstep_period_s = 0;  // > 0: in lockstep, this long a `write`
+  bool real_time = true;         // ask for SCHED_FIFO, below the loop's priority
 };
 
 class Mujoco final : public runtime::RobotInterface {

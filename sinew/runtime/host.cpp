@@ -137,6 +137,7 @@ void Host::start() {
   if (bindings_.recorder) bindings_.recorder->start();
   stopping_.store(false, std::memory_order_release);
   real_time_known_.store(false, std::memory_order_release);
+  ended_.store(false, std::memory_order_release);
   state_.store(State::kRunning, std::memory_order_release);
   thread_ = std::thread([this] { loop(); });
   real_time_known_.wait(false, std::memory_order_acquire);

@@ -91,6 +91,9 @@ class Host final : private EventSink {
   void stop();       // ends the loop after its cycle; robots get their safe command
   void reset();      // from faulted to configured; states get their first values
   void wait();       // until the loop has ended by itself (HostOptions::cycles)
+  bool has_ended() const {
+    return ended_.load(std::memory_order_acquire);
+  }  // so that wait is short
   State state() const { return state_.load(std::memory_order_acquire); }
 
   // The same cycle, by the calling thread, without a clock: for tests, and simulations that are
@@ -165,7 +168,7 @@ class Host final : private EventSink {
   std::vector<Wire> wires_;  // the loop's
   std::vector<Guard> guards_;
   std::atomic<State> state_ = State::kIdle;
-  std::atomic<bool> stopping_ = false, faulted_ = false;
+  std::atomic<bool> stopping_ = false, faulted_ = false, ended_ = false;
   std::uint64_t next_tick_ = 0;
   std::thread thread_;
   RealTimeReport real_time_;

@@ -41,6 +41,7 @@ void Host::loop() {
     ++ran;
   }
   for (const Task& task : tasks_) task.executable->write_safe();
+  ended_.store(true, std::memory_order_release);
 }
 
 void Host::cycle(std::uint64_t tick) noexcept {

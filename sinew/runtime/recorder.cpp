@@ -126,6 +126,10 @@ void Recorder::write_all() {
     if (!file->close() && fault_.empty()) fault_ = file->fault();
 }
 
+void Recorder::drain() const {
+  while (started_ && !ring_->is_empty()) std::this_thread::sleep_for(kWriterPause / 5);
+}
+
 void Recorder::stop() {
   if (!started_) return;
   ending_.store(true, std::memory_order_release);

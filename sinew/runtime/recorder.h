@@ -51,6 +51,8 @@ class Recorder {
   void start();
   // Writes what is in the ring, closes the files. No commit may follow.
   void stop();
+  // Waits until the writer has taken everything out of the ring: for loops without a clock.
+  void drain() const;
   bool is_started() const { return started_; }
 
   // The loop's thread: the row that the next commit records; what nobody changes keeps its value.

@@ -67,6 +67,11 @@ class RowRing {
     return true;
   }
 
+  // The pushing thread: whether everything has been taken out.
+  bool is_empty() const noexcept {
+    return popped_.load(std::memory_order_acquire) == pushed_.load(std::memory_order_relaxed);
+  }
+
   std::size_t width() const { return width_; }
   std::size_t capacity() const { return mask_ + 1; }
 

@@ -23,11 +23,13 @@ class Memory final : public RobotInterface {
  public:
   Channel measurement(const program::Variable& block) const override {
     if (block.quantity == "joint-position") return 0;
+    if (block.quantity == "joint-velocity") return 1;
     throw Error(Problem{{}, block.iri, "does not measure " + block.name, "", {}, {}});
   }
   Channel command(const program::Variable&) const override { return 0; }
   Nanoseconds read(std::span<const Transfer> measurements) noexcept override {
-    for (const Transfer& transfer : measurements) transfer.numbers[0] = position.load();
+    for (const Transfer& transfer : measurements)
+      transfer.numbers[0] = transfer.channel == 0 ? position.load() : velocity.load();
     return stalled.load() ? taken.load() : now();
   }
   void write(std::span<const Transfer> commands) noexcept override {
@@ -35,7 +37,7 @@ class Memory final : public RobotInterface {
     ++writes;
   }
 
-  std::atomic<double> position = 0.5, command_ = 0;
+  std::atomic<double> position = 0.5, velocity = 0, command_ = 0;
   std::atomic<std::uint64_t> writes = 0;
   std::atomic<bool> stalled = false;
   std::atomic<Nanoseconds> taken = 0;  // when it stalled

@@ -114,7 +114,7 @@ TEST_F(HostTest, LeavesOutCyclesThatHavePassedAndSaysSo) {
 
 TEST_F(HostTest, AStalledRobotGetsItsSafeCommandInsteadOfOneFromStaleMeasurements) {
   const auto m = model();
-  const auto h = host(*m, {.period_s = 1e-3, .age_limit_s = 0.02});
+  const auto h = host(*m, {.period_s = 1e-3, .age_limit_s = 0.02, .late = LateCycles::kCatchUp});
   robot_->taken = now();
   robot_->stalled = true;
   h->start();

@@ -1,0 +1,28 @@
+// sinew run --robot: an algorithm in a loop, with a robot around it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "options.h"
+
+namespace sinew::cli {
+
+struct LiveOptions {
+  std::string robot;  // "print", "mujoco", "udp"; empty: not live
+  double rate = 1000;
+  double seconds = 0;  // 0: until interrupted
+  std::vector<std::string> record, set, start;
+  std::string scene, safe, local = "127.0.0.1:0", remote;
+  double age_limit = 0.1;
+  bool lockstep = false, catch_up = false;
+};
+
+void add_live_options(CLI::App& app, LiveOptions& options);
+
+// Runs until it is over, interrupted or faulted; statistics go to standard error. Returns the exit
+// code: 1 after a fault. Throws Error.
+int run_live(const ModelOptions& files, const QueryOptions& query, const LiveOptions& options,
+             bool interpret);
+
+}  // namespace sinew::cli
