@@ -39,6 +39,8 @@ constexpr OperatorRow kRows[] = {
      "acceleration:joint-acceleration -> signal:signal", "", "s = qdd", "signal = acceleration"},
     {"joint-force-of-signal", SINEW_OWN "joint-force-of-signal",
      "signal:signal -> force:joint-force", "", "tau = s", "force = signal"},
+    {"joint-acceleration-of-signal", SINEW_OWN "joint-acceleration-of-signal",
+     "signal:signal -> acceleration:joint-acceleration", "", "qdd = s", "acceleration = signal"},
     // The transpose of a Jacobian, column by column.
     {"joint-force-from-column", SINEW_OWN "joint-force-from-column",
      "column:jacobian-column wrench:wrench -> force:joint-force", "wrench.at = column.at",

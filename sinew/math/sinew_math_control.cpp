@@ -61,6 +61,8 @@ void sinew_signal_of_joint_velocity(const double* qd, double* out) { store(*qd, 
 
 void sinew_signal_of_joint_acceleration(const double* qdd, double* out) { store(*qdd, out); }
 
+void sinew_joint_acceleration_of_signal(const double* s, double* out) { store(*s, out); }
+
 void sinew_joint_force_of_signal(const double* s, double* out) { store(*s, out); }
 
 void sinew_damping(const double* v, const double* v_max, const double* f_max, double* out) {

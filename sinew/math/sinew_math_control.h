@@ -20,6 +20,7 @@ void sinew_wrench_of_force(const double line[3], const double s[1], double W[6])
 void sinew_signal_of_joint_position(const double q[1], double out[1]);
 void sinew_signal_of_joint_velocity(const double qd[1], double out[1]);
 void sinew_signal_of_joint_acceleration(const double qdd[1], double out[1]);
+void sinew_joint_acceleration_of_signal(const double s[1], double out[1]);
 void sinew_joint_force_of_signal(const double s[1], double out[1]);
 void sinew_joint_force_from_column(const double column[6], const double W[6], double out[1]);
 void sinew_damping(const double v[1], const double v_max[1], const double f_max[1], double out[1]);

@@ -38,6 +38,7 @@ std::vector<Kernel> kernels_of_control() {
       row("signal-of-joint-position", []<typename S>(const S& q) { return q; }),
       row("signal-of-joint-velocity", []<typename S>(const S& qd) { return qd; }),
       row("signal-of-joint-acceleration", []<typename S>(const S& qdd) { return qdd; }),
+      row("joint-acceleration-of-signal", []<typename S>(const S& s) { return s; }),
       row("joint-force-of-signal", []<typename S>(const S& s) { return s; }),
       row("joint-force-from-column",
           []<typename S>(const VelocityTwist<S>& column, const Wrench<S>& W) {
