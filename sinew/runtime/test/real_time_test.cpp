@@ -6,6 +6,15 @@
 
 #include "fixture.h"
 
+// A sanitizer has a malloc of its own: gcc and clang say so in different words.
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+#define SINEW_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
+#define SINEW_SANITIZED
+#endif
+#endif
+
 namespace {
 std::atomic<std::uint64_t> allocations = 0;
 thread_local bool counted = false;
@@ -20,7 +29,7 @@ void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* old, std::size_t size);
 void __libc_free(void* memory);
-#if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#ifndef SINEW_SANITIZED
 void* malloc(std::size_t size) {
   count();
   return __libc_malloc(size);
@@ -56,7 +65,7 @@ class RealTime : public RuntimeTest {
 };
 
 TEST_F(RealTime, TheHookSeesAllocations) {
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+#ifdef SINEW_SANITIZED
   GTEST_SKIP() << "the sanitizer has its own malloc";
 #endif
   allocations = 0;
@@ -68,7 +77,7 @@ TEST_F(RealTime, TheHookSeesAllocations) {
 }
 
 TEST_F(RealTime, ACycleWithLogsChecksProbesSetPointsASwapAndAFaultAllocatesNothing) {
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+#ifdef SINEW_SANITIZED
   GTEST_SKIP() << "the sanitizer has its own malloc";
 #endif
   const std::string log = std::string(testing::TempDir()) + "sinew-real-time.csv";
