@@ -36,6 +36,8 @@ std::string_view to_string(Status status) {
       return "older than all that is kept";
     case Status::kReadOnly:
       return "derived, can only be read";
+    case Status::kFull:
+      return "the history is full";
     case Status::kStatic:
       return "static, and has its value";
   }

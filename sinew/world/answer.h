@@ -28,6 +28,7 @@ enum class Status : std::uint8_t {
   kNotANumber,     // write: a number is not finite, or a quaternion not of length one
   kTooLate,        // write: older than all that the ring holds
   kReadOnly,       // write: a derived data block
+  kFull,           // write: the history holds kMaximumHistory entries
   kStatic,         // write: a static measurement has its value already
 };
 std::string_view to_string(Status status);

@@ -309,7 +309,8 @@ struct Merger {
     edit.commit_keeping_lock();
     for (const auto& [measurement, news] : writes) {
       for (const Entry& entry : news)
-        write_checked(original, measurement, entry.stamp, entry.values);
+        write_checked(original, measurement, entry.stamp, entry.values,
+                      original.state.measurements[measurement.index].model->provenance);
     }
     return applied;
   }

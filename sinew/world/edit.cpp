@@ -144,7 +144,8 @@ MeasurementId Edit::add_measurement(const MeasurementSpec& spec) {
       .cell = std::make_shared<Cell>(values, capacity, world_->token, epoch),
       .model = std::make_shared<const MeasurementModel>(spec.model),
       .blocks = blocks,
-      .block_cells = blocks ? block_cells : nullptr};
+      .block_cells = blocks ? block_cells : nullptr,
+      .history = spec.keep_all ? std::make_shared<const History>() : nullptr};
   next_.relations.edit(spec.relation.index, token_).first_measurement = index;
   next_.by_name.edit(name.value, token_) = {ElementKind::kMeasurement, index};
   touch(ElementKind::kMeasurement, index);

@@ -10,8 +10,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
+#include "sinew/graph/store.h"
 #include "sinew/world/plan.h"
 #include "sinew/world/world.h"
 
@@ -66,7 +68,8 @@ struct WorldImpl {
   std::vector<WriterState*> writers;  // of the real-time handles
   WriteGuard guard;
   std::shared_ptr<BatchState> batch = std::make_shared<BatchState>(kBatchIdle);  // write_together
-  std::unique_ptr<Symbols> symbols;  // the graph, once it is needed (symbols.h)
+  std::unique_ptr<Symbols> symbols;          // the graph, once it is needed (symbols.h)
+  std::optional<graph::Snapshot> inherited;  // of a clone: what the original\'s graph held
 
   State published() const {
     const std::lock_guard lock(publishing);
@@ -76,6 +79,11 @@ struct WorldImpl {
     const std::lock_guard lock(publishing);
     state = std::move(next);
     structure.fetch_add(1, std::memory_order_release);
+  }
+  // A change that no plan depends on.
+  void publish_quietly(State next) {
+    const std::lock_guard lock(publishing);
+    state = std::move(next);
   }
   // Where this world sees the cells of an owner.
   Epoch as_of(std::uint64_t owner) const {
@@ -101,7 +109,7 @@ Cell& own_cell(WorldImpl& world, MeasurementId measurement);
 
 // Writes a value that `acceptable` has passed; `editing` is held.
 Status write_checked(WorldImpl& world, MeasurementId measurement, Stamp stamp,
-                     const std::vector<double>& values);
+                     const std::vector<double>& values, std::string_view provenance);
 
 // Whether numbers can be a value of this quantity; makes quaternions exactly unit.
 bool acceptable(Quantity quantity, std::span<double> values);

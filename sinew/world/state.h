@@ -13,6 +13,7 @@
 
 #include "sinew/world/block_set.h"
 #include "sinew/world/cell.h"
+#include "sinew/world/history.h"
 #include "sinew/world/ids.h"
 #include "sinew/world/life_cycle.h"
 #include "sinew/world/names.h"
@@ -85,6 +86,7 @@ struct MeasurementRecord {
   std::shared_ptr<const MeasurementModel> model;
   std::shared_ptr<const BlockSet> blocks;  // none: null
   std::shared_ptr<const std::vector<std::shared_ptr<Cell>>> block_cells;
+  std::shared_ptr<const History> history;  // null: only the ring is kept
 };
 
 struct ObjectRecord {

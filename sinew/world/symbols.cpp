@@ -9,19 +9,38 @@ namespace {
 constexpr std::string_view kType = "http://www.w3.org/1999/02/22-rdf-syntax-ns#type";
 constexpr std::string_view kGeometry = "https://comp-rob2b.github.io/metamodels/geometry/";
 
-}  // namespace
-
-Symbols::Symbols(std::string_view world_iri, const Names& names, const State& state)
-    : names_(names), graph_(store.terms().iri(world_iri)) {
-  describe_all(state);
+// The same term in another dictionary.
+graph::Id copied(const graph::Terms& from, graph::Id id, graph::Terms& to) {
+  switch (from.kind(id)) {
+    case graph::TermKind::kBlank:
+      return to.blank(from.text(id));
+    case graph::TermKind::kLiteral:
+      return to.literal(from.text(id), from.text(from.datatype(id)), from.language(id));
+    default:
+      return to.iri(from.text(id));
+  }
 }
 
-Symbols::Symbols(const Symbols& other, std::string_view world_iri, const Names& names,
-                 const State& state)
-    : store(other.store.clone()), names_(names), graph_(store.terms().iri(world_iri)) {
-  graph::Transaction transaction = store.begin();
-  transaction.clear(graph_);
-  transaction.commit();
+}  // namespace
+
+Symbols::Symbols(std::string_view world_iri, const Names& names, const State& state,
+                 const graph::Snapshot* inherited)
+    : names_(names), graph_(store.terms().iri(world_iri)) {
+  if (inherited) {
+    graph::Terms& terms = store.terms();
+    const graph::Terms& from = inherited->terms();
+    graph::Transaction transaction = store.begin();
+    const auto copy = [&](const graph::Quad& quad) {
+      const graph::Id in = quad.graph ? copied(from, quad.graph, terms) : quad.graph;
+      if (in == graph_) return true;
+      transaction.add({copied(from, quad.subject, terms), copied(from, quad.predicate, terms),
+                       copied(from, quad.object, terms), in});
+      return true;
+    };
+    inherited->match({}, {}, {}, graph::Dataset::kDefault, copy);
+    inherited->match_named({}, {}, {}, copy);
+    transaction.commit();
+  }
   describe_all(state);
 }
 

@@ -25,10 +25,9 @@ namespace sinew::world {
 inline constexpr std::string_view kWorldNamespace = "https://w3id.org/sinew/world#";
 
 struct Symbols {
-  // Describes the whole state in a new store.
-  Symbols(std::string_view world_iri, const Names& names, const State& state);
-  // A store of its own with what another one holds.
-  Symbols(const Symbols& other, std::string_view world_iri, const Names& names, const State& state);
+  // Describes the whole state in a new store. Of what is inherited, everything but the description.
+  Symbols(std::string_view world_iri, const Names& names, const State& state,
+          const graph::Snapshot* inherited);
 
   using Touched = std::set<std::pair<ElementKind, Index>>;
   // In one transaction: what was said of these elements goes, what is true of them now comes.

@@ -234,6 +234,10 @@ std::unique_ptr<WriterState> claim_cells(WorldImpl& world,
     if (std::holds_alternative<Static>(record.model->life_cycle)) {
       refuse(iri, "a writer for a static measurement", "another life-cycle, or no writer");
     }
+    if (record.history) {
+      refuse(iri, "a real-time writer for a measurement that keeps all entries",
+             "World::write, or a ring alone");
+    }
     Cell& cell = own_cell(world, measurement);
     if (!cell.claimed_by.empty()) {
       refuse(iri, "a real-time writer is at work: " + cell.claimed_by,
@@ -341,6 +345,11 @@ World World::clone() const {
   }
   const Epoch as_of = original.epoch.fetch_add(1, std::memory_order_seq_cst);
   auto impl = std::make_shared<WorldImpl>(original, original.state, as_of);
+  if (original.symbols) {
+    impl->inherited = original.symbols->store.snapshot();
+  } else {
+    impl->inherited = original.inherited;
+  }
   // Writes that began before are finished: the clone has them, or never sees them.
   for (const WriterState* const writer : original.writers) {
     const std::uint64_t active = writer->active.load(std::memory_order_seq_cst);
@@ -354,7 +363,9 @@ World World::clone() const {
 graph::Store& World::graph() {
   const std::lock_guard lock(impl_->editing);
   if (!impl_->symbols) {
-    impl_->symbols = std::make_unique<Symbols>(impl_->iri, impl_->family->names, impl_->state);
+    impl_->symbols = std::make_unique<Symbols>(impl_->iri, impl_->family->names, impl_->state,
+                                               impl_->inherited ? &*impl_->inherited : nullptr);
+    impl_->inherited.reset();
   }
   return impl_->symbols->store;
 }

@@ -65,7 +65,8 @@ struct MeasurementSpec {
   MeasurementModel model = {};
   std::uint32_t capacity = kUsualCapacity;  // entries kept; rounded up to a power of two
   std::uint32_t values = 0;                 // of Quantity::kOther
-  BlocksSpec blocks = {};                   // the same value in other prototypes (block_set.h)
+  bool keep_all = false;   // every entry, for users (history.h); no real-time handle
+  BlocksSpec blocks = {};  // the same value in other prototypes (block_set.h)
 };
 
 // Who writes. Every write carries it; a hook (set_write_guard) may refuse by it.
@@ -158,6 +159,12 @@ class World {
   };
   Sample latest(MeasurementId measurement, Stamp now) const;
   Sample at(MeasurementId measurement, Stamp time) const;
+  // All entries of a measurement that keeps them, as they are now; Error for others.
+  History history(MeasurementId measurement) const;
+  // That user needs none of the first `count` entries of that history any more. Entries that all
+  // declared users are done with are let go.
+  void done(MeasurementId measurement, std::string_view user, const History& history,
+            std::size_t count);
   // What is known of a measurement; its prediction model among it, for who wants to predict
   // himself.
   std::shared_ptr<const MeasurementModel> model(MeasurementId measurement) const;

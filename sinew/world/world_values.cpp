@@ -113,10 +113,27 @@ void write_as_one(WorldImpl& world, Stamp stamp, const std::vector<Pending>& pen
   for (const Pending& one : pending) one.cell->finish();
 }
 
-}  // namespace
+void remember(WorldImpl& world, MeasurementId measurement, Stamp stamp,
+              const std::vector<double>& values, std::string_view provenance) {
+  const std::shared_ptr<const History> before = world.state.measurements[measurement.index].history;
+  if (!before) return;
+  History next = *before;
+  next.entries.push_back(
+      std::make_shared<const HistoryEntry>(HistoryEntry{stamp, values, std::string(provenance)}),
+      fresh_token());
+  State state = world.published();
+  state.measurements.edit(measurement.index, fresh_token()).history =
+      std::make_shared<const History>(std::move(next));
+  world.publish_quietly(std::move(state));
+}
 
-Status write_checked(WorldImpl& world, MeasurementId measurement, Stamp stamp,
-                     const std::vector<double>& values) {
+bool is_full(const WorldImpl& world, MeasurementId measurement) {
+  const auto& history = world.state.measurements[measurement.index].history;
+  return history && history->size() >= kMaximumHistory;
+}
+
+Status write_values(WorldImpl& world, MeasurementId measurement, Stamp stamp,
+                    const std::vector<double>& values) {
   Cell& cell = own_cell(world, measurement);
   const Epoch epoch = world.epoch.load(std::memory_order_relaxed);
   const Cell::View view = cell.view(kNow);
@@ -143,8 +160,6 @@ Status write_checked(WorldImpl& world, MeasurementId measurement, Stamp stamp,
   return Status::kOk;
 }
 
-namespace {
-
 const DataBlock& block_of(const WorldImpl& world, const MeasurementRecord& record,
                           std::size_t block, std::size_t size) {
   const std::string& iri = world.family->names.text(record.name);
@@ -160,6 +175,14 @@ const DataBlock& block_of(const WorldImpl& world, const MeasurementRecord& recor
 }
 
 }  // namespace
+
+Status write_checked(WorldImpl& world, MeasurementId measurement, Stamp stamp,
+                     const std::vector<double>& values, std::string_view provenance) {
+  if (is_full(world, measurement)) return Status::kFull;
+  const Status status = write_values(world, measurement, stamp, values);
+  if (status == Status::kOk) remember(world, measurement, stamp, values, provenance);
+  return status;
+}
 
 void World::set_write_guard(WriteGuard guard) {
   const std::lock_guard lock(impl_->editing);
@@ -178,7 +201,8 @@ Status World::write(MeasurementId measurement, Stamp stamp, std::span<const doub
   const std::lock_guard lock(impl_->editing);
   std::vector<double> checked(values.begin(), values.end());
   const Status status = check(*impl_, measurement, checked, who.provenance);
-  return status == Status::kOk ? write_checked(*impl_, measurement, stamp, checked) : status;
+  return status == Status::kOk ? write_checked(*impl_, measurement, stamp, checked, who.provenance)
+                               : status;
 }
 
 Status World::write_together(Stamp stamp, std::span<const Value> values, const WriteContext& who) {
@@ -190,6 +214,7 @@ Status World::write_together(Stamp stamp, std::span<const Value> values, const W
     const Status status = check(*impl_, value.measurement, checked, who.provenance);
     if (status != Status::kOk) return status;
     if (is_static(*impl_, value.measurement)) return Status::kStatic;
+    if (is_full(*impl_, value.measurement)) return Status::kFull;
     if (std::find(seen.begin(), seen.end(), value.measurement) != seen.end()) {
       refuse(name(value.measurement), "written twice in one batch", "one value for each");
     }
@@ -200,6 +225,10 @@ Status World::write_together(Stamp stamp, std::span<const Value> values, const W
     add_pending(impl_->state.measurements[value.measurement.index], std::move(checked), pending);
   }
   write_as_one(*impl_, stamp, pending);
+  for (const Value& value : values) {
+    remember(*impl_, value.measurement, stamp, {value.values.begin(), value.values.end()},
+             who.provenance);
+  }
   return Status::kOk;
 }
 
@@ -223,7 +252,9 @@ Status World::write_block(MeasurementId measurement, std::size_t block, Stamp st
   std::vector<double> canonical(record.cell->values());
   if (!from.to_canonical->run(value, canonical.data())) return Status::kNotANumber;
   const Status status = check(*impl_, measurement, canonical, who.provenance);
-  return status == Status::kOk ? write_checked(*impl_, measurement, stamp, canonical) : status;
+  return status == Status::kOk
+             ? write_checked(*impl_, measurement, stamp, canonical, who.provenance)
+             : status;
 }
 
 Status World::read_blocks(MeasurementId measurement, std::span<const BlockBuffer> buffers,

@@ -208,9 +208,9 @@ TEST(Blocks, FaultsAreNamed) {
   EXPECT_NE(refused({.library = library(), .blocks = {{"http://x/n", "nothing"}}})
                 .find("http://x/n: there is no data prototype 'nothing'"),
             std::string::npos);
-  EXPECT_NE(
-      refused({.library = library(), .blocks = {{"http://x/p", "pendant"}}}).find("sinew_world_pose"),
-      std::string::npos);
+  EXPECT_NE(refused({.library = library(), .blocks = {{"http://x/p", "pendant"}}})
+                .find("sinew_world_pose"),
+            std::string::npos);
   EXPECT_NE(refused({.library = library(),
                      .canonical = "controller_pose",
                      .blocks = {{"http://x/c", "controller_pose"}}})
