@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "sinew/base/error.h"
@@ -190,6 +191,29 @@ std::vector<std::string> UnitTable::suggestions(std::string_view text) const {
     names.insert(names.end(), row.symbols.begin(), row.symbols.end());
   }
   return close_spellings(text, names);
+}
+
+std::string coherent_unit(const Dimension& dimension) {
+  // Usual names of products with force and torque; all others are written in base units.
+  constexpr std::string_view kUsual[] = {
+      "UNITLESS",       "N",       "N-M",         "N-PER-M",         "N-M-PER-RAD", "N-SEC",
+      "N-SEC-PER-M",    "N-M-SEC", "N-PER-M-SEC", "N-M-SEC-PER-RAD", "N-PER-SEC",   "N-M-PER-SEC",
+      "N-M-PER-RAD-SEC"};
+  for (const std::string_view name : kUsual)
+    if (find_unit(name)->dimension == dimension) return std::string(name);
+  constexpr std::array<std::string_view, kBaseQuantities> kBase = {"M", "KiloGM", "SEC", "A",
+                                                                   "K", "MOL",    "CD",  "RAD"};
+  constexpr std::array<std::size_t, kBaseQuantities> kOrder = {7, 1, 0, 2, 3, 4, 5, 6};
+  std::string above, below;
+  for (const std::size_t i : kOrder) {
+    const int exponent = dimension.exponents[i];
+    if (exponent == 0) continue;
+    std::string& side = exponent > 0 ? above : below;
+    if (!side.empty()) side += '-';
+    side += kBase[i];
+    if (exponent > 1 || exponent < -1) side += std::to_string(exponent < 0 ? -exponent : exponent);
+  }
+  return below.empty() ? above : above.empty() ? "PER-" + below : above + "-PER-" + below;
 }
 
 std::optional<Unit> find_unit(std::string_view text) { return UnitTable::shipped().find(text); }

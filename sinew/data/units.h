@@ -76,6 +76,10 @@ class UnitTable {
   std::vector<Row> rows_;
 };
 
+// The coherent SI unit of a dimension by its QUDT name: "M-PER-SEC", "N-M". Of units with the same
+// dimension it is the one of mechanics: N-M, not J.
+std::string coherent_unit(const Dimension& dimension);
+
 // From the shipped table.
 std::optional<Unit> find_unit(std::string_view text);
 

@@ -86,5 +86,18 @@ TEST(Dimensions, FormAnAlgebra) {
   EXPECT_EQ(parse_dimension(to_string(newton)), newton);
 }
 
+TEST(Units, EveryDimensionHasACoherentUnitThatIsFoundAgain) {
+  for (const std::string_view name :
+       {"UNITLESS", "M", "M-PER-SEC", "RAD-PER-SEC2", "N", "N-M", "N-PER-M", "N-M-SEC-PER-RAD",
+        "PER-SEC", "RAD-SEC", "KiloGM-M"})
+    EXPECT_EQ(coherent_unit(find_unit(name)->dimension), name);
+  for (const std::string_view name : {"V", "J", "KiloGM-PER-M3", "MilliM", "N-PER-M2"}) {
+    const std::string coherent = coherent_unit(find_unit(name)->dimension);
+    ASSERT_TRUE(find_unit(coherent)) << coherent;
+    EXPECT_EQ(find_unit(coherent)->dimension, find_unit(name)->dimension) << coherent;
+    EXPECT_EQ(find_unit(coherent)->scale, 1) << coherent;
+  }
+}
+
 }  // namespace
 }  // namespace sinew::data
