@@ -65,6 +65,10 @@ void sinew_joint_acceleration_of_signal(const double* s, double* out) { store(*s
 
 void sinew_joint_force_of_signal(const double* s, double* out) { store(*s, out); }
 
+void sinew_joint_force_from_column(const double* column, const double* W, double* out) {
+  store(power(load<VelocityTwist>(column), load<Wrench>(W)), out);
+}
+
 void sinew_damping(const double* v, const double* v_max, const double* f_max, double* out) {
   store(damping_force(*v, *v_max, *f_max), out);
 }

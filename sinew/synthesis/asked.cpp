@@ -35,6 +35,7 @@ constexpr AskedQuantity kAsked[] = {
      "centroidal-momentum-matrix", false, true},
     {"kinetic-energy", Element::kRobot, "kinetic-energy", "kinetic-energy", false, true},
     {"potential-energy", Element::kRobot, "potential-energy", "potential-energy", false, true},
+    {"control-force", Element::kJoint, "control-force", "control-force", true, true},
     {"gravity-force", Element::kJoint, "gravity-force", "gravity-force", true, true},
 };
 

@@ -18,6 +18,8 @@ std::string_view to_string(Direction direction) {
       return "inward";
     case Direction::kLocal:
       return "local";
+    case Direction::kOnce:
+      return "once";
   }
   return "";
 }

@@ -23,6 +23,7 @@
 namespace sinew::synthesis {
 
 using BlockIndex = std::uint32_t;
+struct Control;  // control.h
 
 // Which data block is in a slot of a model element at this moment of the synthesis. Most slots are
 // filled once; accumulations fill theirs again and again.
@@ -64,6 +65,8 @@ struct Context {
   std::unordered_map<Id, std::array<double, 10>> inertias = {};
   std::vector<ExternalWrench> wrenches = {};
   std::vector<Relation> relations = {};  // motions that are asked for between any two frames
+  const Control* control = nullptr;           // the task's, where there is one
+  std::vector<BlockIndex> task_outputs = {};  // flags, events and control signals
   Blackboard board = {};
   const Step* step = nullptr;  // whose pass is running
 

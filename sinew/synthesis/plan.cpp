@@ -102,14 +102,19 @@ class Planner {
       std::size_t at = 0;
       for (const Step* giver : givers(*step)) {
         const std::size_t after = sweep_of.at(giver);
-        const bool same =
-            step->direction == Direction::kLocal || sweeps[after].direction == step->direction;
+        const bool once =
+            step->direction == Direction::kOnce || sweeps[after].direction == Direction::kOnce;
+        const bool same = !once && (step->direction == Direction::kLocal ||
+                                    sweeps[after].direction == step->direction);
         at = std::max(at, same ? after : after + 1);
       }
       const Direction direction =
           step->direction == Direction::kLocal ? Direction::kOutward : step->direction;
-      if (step->direction != Direction::kLocal)
-        while (at < sweeps.size() && sweeps[at].direction != direction) ++at;
+      const auto fits = [&](const Sweep& sweep) {
+        return step->direction == Direction::kLocal ? sweep.direction != Direction::kOnce
+                                                    : sweep.direction == direction;
+      };
+      while (at < sweeps.size() && !fits(sweeps[at])) ++at;
       while (at >= sweeps.size()) sweeps.push_back({direction, {}});
       sweeps[at].steps.push_back(step);
       sweep_of[step] = at;

@@ -4,10 +4,13 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "sinew/task/task.h"
 
 namespace sinew::synthesis {
 
@@ -69,6 +72,8 @@ struct Query {
   bool regroup = true;
   Forces forces = Forces::kTogether;
   Frames frames = Frames::kMoving;
+  // Whose controllers work with the solver (control.h); null: none.
+  std::shared_ptr<const task::Task> task = nullptr;
   std::string sweeps;  // name of a hand-written sweep configuration; empty: planned
 };
 

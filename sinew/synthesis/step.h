@@ -17,8 +17,9 @@ namespace sinew::synthesis {
 using graph::Id;
 
 // From the root to the leaves, or back. A local step looks at its own node only and runs in
-// whichever sweep has what it needs.
-enum class Direction : std::uint8_t { kOutward, kInward, kLocal };
+// whichever sweep has what it needs. One that runs once is called at the root alone, in a sweep of
+// its own, and looks at the whole robot.
+enum class Direction : std::uint8_t { kOutward, kInward, kLocal, kOnce };
 std::string_view to_string(Direction direction);
 
 // Whom a visitor is called for: each node that the expansion reaches (and the root, by the step's

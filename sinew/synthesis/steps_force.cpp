@@ -194,7 +194,7 @@ Step wrench_step(Motion motion) {
           .direction = Direction::kInward,
           .expansion = std::string(kAcrossJoints),
           .needs = {"placement", "pose-across-joint", slot_of(motion, "own-wrench")},
-          .may_use = {},
+          .may_use = {slot_of(motion, "control-wrench")},
           .gives = {slot_of(motion, "body-wrench")},
           .visitors = {{Where::kEdge,
                         {std::string(kParentIsNotRoot)},

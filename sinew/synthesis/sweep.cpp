@@ -122,6 +122,7 @@ class Traversal {
   void go(const Sweep& sweep, Pass Visitor::*pass) {
     const bool outward = sweep.direction != Direction::kInward;
     if (outward) visit_root(sweep, pass);
+    if (sweep.direction == Direction::kOnce) return;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       const Edge& edge = edges_[outward ? i : edges_.size() - 1 - i];
       for (const Step* step : sweep.steps) {

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "sinew/algorithm/attach.h"
 #include "sinew/base/error.h"
 #include "sinew/synthesis/asked.h"
 #include "sinew/synthesis/context.h"
+#include "sinew/synthesis/control.h"
 #include "sinew/synthesis/drivers.h"
 #include "sinew/synthesis/external_wrenches.h"
 #include "sinew/synthesis/floating_base.h"
@@ -24,7 +26,8 @@ using algorithm::kAlgorithmNamespace;
 struct Wanted {
   const AskedQuantity* quantity;
   Id element;
-  std::vector<Id> frames;  // the way to them matters
+  std::vector<Id> frames = {};  // the way to them matters
+  bool output = true;           // false: a task needs it
 };
 
 struct Resolved {
@@ -222,9 +225,9 @@ void set_scope(Context& context, const Resolved& resolved) {
 }
 
 // The planner's sweeps, or those that somebody wrote.
-Plan plan_of(const Query& query, const Resolved& resolved, std::span<const std::string> given,
-             Report& report) {
-  if (query.sweeps.empty()) return make_plan(steps(), resolved.wishes, given, report);
+Plan plan_of(const Query& query, const Resolved& resolved, std::span<const Step> steps,
+             std::span<const std::string> given, Report& report) {
+  if (query.sweeps.empty()) return make_plan(steps, resolved.wishes, given, report);
   const SweepConfiguration configuration = named_sweeps(query.sweeps);
   Plan plan;
   for (const SweepNames& names : configuration.sweeps) {
@@ -246,10 +249,56 @@ Plan plan_of(const Query& query, const Resolved& resolved, std::span<const std::
 }
 
 void hand_out(Context& context, const Resolved& resolved) {
-  for (const Wanted& wanted : resolved.wanted)
+  for (const Wanted& wanted : resolved.wanted) {
+    if (!wanted.output) continue;
     context.builder.output(
         context.block(wanted.quantity->slot, wanted.element),
         wanted.quantity->element == Element::kRobot ? wanted.quantity->name : std::string_view());
+  }
+  for (const BlockIndex block : context.task_outputs) context.builder.output(block);
+}
+
+// What a task adds to the question: which forces it acts on, the frames that it measures.
+Control control_of(graph::Store& store, const graph::View& view, const Robot& robot,
+                   const Query& query, std::span<const std::string> given, Resolved& resolved,
+                   Report& report) {
+  Control control = place_task(store, view, robot, query.task, report);
+  AskedForces asked;
+  for (const Wanted& wanted : resolved.wanted) {
+    asked.full |= wanted.quantity->name == "joint-force";
+    asked.bias |= wanted.quantity->name == "bias-force";
+    asked.rest |= wanted.quantity->name == "gravity-force";
+    asked.control |= wanted.quantity->name == "control-force";
+  }
+  decide(control, asked, given, report, view);
+  for (const auto& [quantity, frame] : control.frames) {
+    const AskedQuantity* row = find_asked(quantity);
+    const bool known =
+        std::any_of(resolved.wanted.begin(), resolved.wanted.end(),
+                    [&](const Wanted& one) { return one.quantity == row && one.element == frame; });
+    if (!known) resolved.wanted.push_back({row, frame, {frame}, false});
+  }
+  for (Wish& wish : wishes_of(control, asked)) resolved.wishes.push_back(std::move(wish));
+  return control;
+}
+
+// The robot interface that the task names reads before the first sweep and writes after the last.
+void attach(graph::Store& store, const Control& control, Synthesis& result) {
+  const task::RobotInterface& robot = *control.task->robot_interface;
+  algorithm::attach_robot(store, result.algorithm,
+                          {text(store.view(), robot.interface), {robot.safe}});
+  const std::string name = text(store.view(), robot.id);
+  result.why.insert(result.why.begin(),
+                    fmt::format("before the first sweep: read, as <{}> says", name));
+  result.why.push_back(fmt::format("after the last sweep: write, as <{}> says", name));
+}
+
+// What tells a task from others.
+void add_elements(const task::Task& task, std::vector<Id>& facts) {
+  if (task.solver) facts.push_back(task.solver->id);
+  if (task.robot_interface) facts.push_back(task.robot_interface->id);
+  for (const task::Monitor& monitor : task.monitors) facts.push_back(monitor.id);
+  for (const task::Controller& controller : task.controllers) facts.push_back(controller.id);
 }
 
 // The same robot from the world; its base's name stands for the six degrees of freedom of the base.
@@ -278,13 +327,21 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
   Resolved resolved = resolve(store, view, robot, query, wrenches, report);
   wish_for_drivers(wrenches, query, resolved);
   const std::vector<std::string> given = given_slots(query);
-  const Plan plan = plan_of(query, resolved, given, report);
+  std::optional<Control> control;
+  if (query.task && !query.task->empty())
+    control = control_of(store, view, robot, query, given, resolved, report);
+  report.throw_if_errors();
+  const std::vector<Step> task_steps = control ? steps_with(*control) : std::vector<Step>();
+  const Plan plan =
+      plan_of(query, resolved, control ? std::span(task_steps) : std::span(steps()), given, report);
   report.throw_if_errors();
 
   graph::Terms& terms = store.terms();
   Synthesis result;
-  result.algorithm = terms.derived(terms.iri(std::string(kAlgorithmNamespace) + "Algorithm"),
-                                   {robot.root_frame, terms.literal(canonical_text(query))});
+  std::vector<Id> facts = {robot.root_frame, terms.literal(canonical_text(query))};
+  if (control) add_elements(*control->task, facts);
+  result.algorithm =
+      terms.derived(terms.iri(std::string(kAlgorithmNamespace) + "Algorithm"), facts);
   transaction.clear(result.algorithm);
   algorithm::Builder builder(store, transaction, result.algorithm);
   const bool falls = std::any_of(given.begin(), given.end(), [](const std::string& slot) {
@@ -306,7 +363,8 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
   context.inertias = stated_inertias(context);
   if (query.regroup && resolved.regroups) regroup(context, context.inertias);
   write_asks(store, transaction, result.algorithm, resolved);
-  set_scope(context, resolved);
+  if (!control) set_scope(context, resolved);  // a task may speak of any joint
+  if (control) context.control = &*control;
   make_drivers(context, report);
   report.throw_if_errors();
 
@@ -316,6 +374,7 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
   floating.reset();
   transaction.commit();
   result.why = plan.why;
+  if (control && control->task->robot_interface) attach(store, *control, result);
   return result;
 }
 
