@@ -16,6 +16,8 @@
 #include "sinew/synthesis/combine_queries.h"
 #include "sinew/synthesis/read_query.h"
 #include "sinew/synthesis/synthesise.h"
+#include "sinew/synthesis/task_query.h"
+#include "sinew/task/read_task.h"
 
 namespace sinew::cli {
 namespace {
@@ -52,6 +54,39 @@ catalogue::Catalogue catalogue_of(const ModelOptions& files) {
   return catalogue;
 }
 
+// What the command line says in addition to a query.
+void add_options(synthesis::Query& query, const QueryOptions& options) {
+  if (!options.base.empty()) query.base = options.base;
+  if (!options.tips.empty()) query.tips = options.tips;
+  if (options.gravity == "input") {
+    for (synthesis::Given& given : query.given) given.varies |= given.quantity == "gravity";
+  } else if (!options.gravity.empty()) {
+    query.gravity = parse_vector3(options.gravity, "--gravity");
+  }
+  if (options.floating) query.floating = true;
+  if (options.forces_apart) query.forces = synthesis::Forces::kApart;
+  if (options.stationary_frames) query.frames = synthesis::Frames::kStationary;
+}
+
+// The task that the models hold; null where they hold none.
+std::shared_ptr<const task::Task> task_of(Models& models) {
+  Report report;
+  auto task = std::make_shared<task::Task>(task::read_task(models.store, models.places, report));
+  report.throw_if_errors();
+  return task->empty() ? nullptr : task;
+}
+
+// The query that the task's solver stands for.
+synthesis::Query query_of_task(Models& models, const QueryOptions& options,
+                               std::shared_ptr<const task::Task> task) {
+  Report report;
+  synthesis::Query query =
+      synthesis::query_of_task(models.store.view(), models.places, std::move(task), report);
+  report.throw_if_errors();
+  add_options(query, options);
+  return query;
+}
+
 }  // namespace
 
 std::vector<synthesis::Query> queries_of(const ModelOptions& files, const QueryOptions& options) {
@@ -75,16 +110,7 @@ std::vector<synthesis::Query> queries_of(const ModelOptions& files, const QueryO
 synthesis::Query query_of(std::vector<synthesis::Query> queries, const QueryOptions& options) {
   synthesis::Query query =
       queries.size() == 1 ? std::move(queries.front()) : synthesis::combined(queries);
-  if (!options.base.empty()) query.base = options.base;
-  if (!options.tips.empty()) query.tips = options.tips;
-  if (options.gravity == "input") {
-    for (synthesis::Given& given : query.given) given.varies |= given.quantity == "gravity";
-  } else if (!options.gravity.empty()) {
-    query.gravity = parse_vector3(options.gravity, "--gravity");
-  }
-  if (options.floating) query.floating = true;
-  if (options.forces_apart) query.forces = synthesis::Forces::kApart;
-  if (options.stationary_frames) query.frames = synthesis::Frames::kStationary;
+  add_options(query, options);
   return query;
 }
 
@@ -108,12 +134,18 @@ void normalise(Models& models, const synthesis::Query& query) {
 
 graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOptions& options,
                        std::vector<std::string>* why) {
-  if (!names_query(options)) return only_algorithm(models);
+  if (!names_query(options)) {
+    const auto task = task_of(models);
+    if (!task || !task->solver) return only_algorithm(models);
+    return algorithm_of(models, query_of_task(models, options, task), why);
+  }
   return algorithm_of(models, query_of(queries_of(files, options), options), why);
 }
 
-graph::Id algorithm_of(Models& models, const synthesis::Query& query,
+graph::Id algorithm_of(Models& models, const synthesis::Query& asked,
                        std::vector<std::string>* why) {
+  synthesis::Query query = asked;
+  if (!query.task) query.task = task_of(models);
   normalise(models, query);
   synthesis::Synthesis synthesis = synthesis::synthesise(models.store, query);
   for (const std::string& note : synthesis.notes) print_note(note);
