@@ -1,6 +1,8 @@
 // The source's listings as code over the real types: ROS's and Eigen's headers, asn1c's output.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "emitted_code.h"
 
 namespace sinew::blocks {
@@ -73,6 +75,57 @@ TEST(Emitted, ListingTenRunsOnTheTypesThatAsn1cMakes) {
   target.setZero();
   CHECK(!asn1c_quaternion_to_e_rotation(source, target));
   NEAR(target.norm(), 0);)",
+                             .include_folders = {folder.path.string()},
+                             .declarations = kRotation}),
+            "ok");
+}
+
+// As the source's generator would have written it: the function of the library between two arrays.
+TEST(Emitted, ListingElevenCallsTheLibrarysFunction) {
+  EXPECT_EQ(compile_and_run({.file = "functions.blocks",
+                             .conversions = {{"asn_quaternion", "e_rotation"}},
+                             .main = R"(
+  double q[4], m[9];
+  rotation(q, m);
+  const asn1SccWrappers_Quaterniond source{{{q[0], q[1], q[2]}}, q[3]};
+  Eigen::Matrix3d target;
+  asn_quaternion_to_e_rotation(source, target);
+  CHECK(calls == 1);
+  for (int i = 0; i < 9; ++i) NEAR(target(i / 3, i % 3), m[i]);)",
+                             .declarations = std::string(kRotation) + R"(
+static int calls;
+extern "C" void quat2rot(const double q[4], double r[9]) {
+  ++calls;
+  const Eigen::Matrix3d m = Eigen::Quaterniond(q[3], q[0], q[1], q[2]).toRotationMatrix();
+  for (int i = 0; i < 9; ++i) r[i] = m(i / 3, i % 3);
+}
+)"}),
+            "ok");
+}
+
+TEST(Emitted, ListingNineCallsAFunctionOfRosTypes) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path / "rotations.h") << R"(
+#pragma once
+#include <Eigen/Geometry>
+#include <geometry_msgs/Quaternion.h>
+namespace rotations {
+inline void from_ros(const geometry_msgs::Quaternion* q, double r[9]) {
+  const Eigen::Matrix3d m = Eigen::Quaterniond(q->w, q->x, q->y, q->z).toRotationMatrix();
+  for (int i = 0; i < 9; ++i) r[i] = m(i / 3, i % 3);
+}
+}
+)";
+  EXPECT_EQ(compile_and_run({.file = "functions.blocks",
+                             .conversions = {{"prelude.semantic_ros_quaternion", "e_rotation"}},
+                             .main = R"(
+  double q[4], m[9];
+  rotation(q, m);
+  geometry_msgs::Quaternion source;
+  source.x = q[0]; source.y = q[1]; source.z = q[2]; source.w = q[3];
+  Eigen::Matrix3d target;
+  prelude_semantic_ros_quaternion_to_e_rotation(source, target);
+  for (int i = 0; i < 9; ++i) NEAR(target(i / 3, i % 3), m[i]);)",
                              .include_folders = {folder.path.string()},
                              .declarations = kRotation}),
             "ok");

@@ -1,7 +1,7 @@
 // Any text as a type in one of the languages that types are described in. The first byte chooses
 // the language, the rest of the first line is what a prototype says (`Fuzz.Pose`,
-// `double[3]`), and what follows is the file in which the type is looked for. It is laid out, or
-// refused with an Error that has a place.
+// `double[3]`), and what follows is the file in which the type is looked for. It is laid out, with
+// every number inside the type, or refused with an Error that has a place.
 #include <unistd.h>
 
 #include <algorithm>
@@ -38,6 +38,18 @@ struct Sources {
   fs::path folder;
 };
 
+// Every number of a type lies inside it.
+void check_layout(const sinew::data::Type& type) {
+  using namespace sinew;
+  for (const data::Accessor& path : data::list_accessors(type)) {
+    const data::Accessor whole{false, {"value"}};
+    const auto access = data::find_access(type, path.steps.empty() ? whole : path, nullptr);
+    if (!access) std::abort();
+    const std::size_t end = access->offsets[0] + data::size_of(access->scalar);
+    if (access->in_memory && access->offsets.size() == 1 && end > type.size) std::abort();
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -51,8 +63,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fs::path file = sources.file(language);
   std::ofstream(file, std::ios::binary) << rest.substr(std::min(line + 1, rest.size()));
   try {
-    data::read_representation(language, rest.substr(0, line), {"fuzz.blocks", 1, 1},
-                              {{sources.folder.string()}});
+    const auto representation = data::read_representation(
+        language, rest.substr(0, line), {"fuzz.blocks", 1, 1}, {{sources.folder.string()}});
+    check_layout(*representation.type);
   } catch (const Error& error) {
     if (error.problems()[0].place.file.empty()) std::abort();
   }
