@@ -365,6 +365,7 @@ class ConverterCompiler {
   // The function's arguments are in di (registers), si (blocks), dx (the converter). Where nothing
   // is called they can stay in registers that calls may overwrite.
   void enter() {
+    code_.landing();
     if (calls_) {
       for (const General reg : kSaved) code_.push(reg);
       code_.move(General::kBx, General::kDi);

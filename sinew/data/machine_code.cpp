@@ -98,6 +98,8 @@ void MachineCode::compare(Compare how, Vector target, Vector source) {
   byte(static_cast<unsigned>(how));
 }
 
+void MachineCode::landing() { number(0xfa1e0ff3, 4); }  // endbr64
+
 void MachineCode::push(General reg) {
   if (number_of(reg) > 7) byte(0x41);
   byte(0x50 | (number_of(reg) & 7));

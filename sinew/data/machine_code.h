@@ -60,6 +60,7 @@ class MachineCode {
   enum class Compare : std::uint8_t { kLess = 1, kNotEqual = 4 };  // kNotEqual: true for NaN
   void compare(Compare how, Vector target, Vector source);
 
+  void landing();  // marks a place that calls through a pointer may reach
   void push(General reg);
   void pop(General reg);
   void move(General target, General source);
