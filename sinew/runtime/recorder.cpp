@@ -84,6 +84,7 @@ void Recorder::start() {
   row_.resize(kStamps + columns_.size());
   ring_ = std::make_unique<RowRing>(row_.size(), options_.capacity_rows);
   ending_ = false;
+  any_row_ = false;
   started_ = true;
   writer_ = std::thread([this] { write_all(); });
 }
