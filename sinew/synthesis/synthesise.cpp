@@ -8,6 +8,7 @@
 #include "sinew/base/error.h"
 #include "sinew/synthesis/asked.h"
 #include "sinew/synthesis/context.h"
+#include "sinew/synthesis/coordinates.h"
 #include "sinew/synthesis/drivers.h"
 #include "sinew/synthesis/external_wrenches.h"
 #include "sinew/synthesis/floating_base.h"
@@ -37,19 +38,6 @@ struct Resolved {
 
 std::string text(const graph::View& view, Id id) { return std::string(view.terms().text(id)); }
 
-const RobotJoint& find_joint(const graph::View& view, const Robot& robot, std::string_view name) {
-  for (const RobotJoint& joint : robot.joints) {
-    const std::string_view iri = view.terms().text(joint.joint);
-    if (iri == name || algorithm::short_name(iri) == name) return joint;
-  }
-  std::string known;
-  for (const RobotJoint& joint : robot.joints)
-    known += (known.empty() ? "" : ", ") +
-             std::string(algorithm::short_name(view.terms().text(joint.joint)));
-  throw Error(
-      Problem{{}, std::string(name), "no moving joint has this name", "one of " + known, {}, {}});
-}
-
 std::vector<Id> tips(graph::Store& store, const graph::View& view, const Robot& robot,
                      const Query& query) {
   if (query.tips.empty()) return leaf_frames(store, view, robot);
@@ -76,8 +64,12 @@ std::vector<Id> elements(graph::Store& store, const graph::View& view, const Rob
       return found;
     case Element::kJoint:
       if (!asked.of.empty() && asked.of != kEveryJoint)
-        return {find_joint(view, robot, asked.of).joint};
-      for (const RobotJoint& joint : robot.joints) found.push_back(joint.joint);
+        return {find_coordinate(view, robot, asked.of).joint};
+      for (const Coordinate& coordinate : coordinates(robot)) found.push_back(coordinate.joint);
+      // A joint that follows another has no numbers of its own, but a bearing.
+      if (asked.quantity == "joint-wrench")
+        for (const RobotJoint& joint : robot.joints)
+          if (joint.follows >= 0 && joint.compound < 0) found.push_back(joint.joint);
       return found;
   }
   return found;
@@ -95,11 +87,16 @@ std::vector<Id> shares(graph::Store& store, const graph::View& view, const Robot
                         {},
                         {}});
   std::vector<Id> pairs;
-  for (const RobotJoint& joint : robot.joints)
-    for (const ExternalWrench& one : wrenches)
-      for (const std::size_t on_the_way : path_to(robot, view, one.frame))
-        if (robot.joints[on_the_way].joint == joint.joint)
-          pairs.push_back(pair_of(store.terms(), joint.joint, one.frame));
+  for (const Coordinate& coordinate : coordinates(robot))
+    for (const std::size_t part : coordinate.parts)
+      for (const ExternalWrench& one : wrenches) {
+        // A wrench reaches a joint on its way, and by way of those that follow it.
+        const auto way = path_to(robot, view, one.frame);
+        const bool reaches = std::any_of(way.begin(), way.end(), [&](std::size_t at) {
+          return at == part || robot.joints[at].follows == static_cast<int>(part);
+        });
+        if (reaches) pairs.push_back(pair_of(store.terms(), robot.joints[part].joint, one.frame));
+      }
   return pairs;
 }
 
@@ -222,9 +219,22 @@ void set_scope(Context& context, const Resolved& resolved) {
 }
 
 // The planner's sweeps, or those that somebody wrote.
-Plan plan_of(const Query& query, const Resolved& resolved, std::span<const std::string> given,
-             Report& report) {
-  if (query.sweeps.empty()) return make_plan(steps(), resolved.wishes, given, report);
+Plan plan_of(const Query& query, const Robot& robot, const Resolved& resolved,
+             std::span<const std::string> given, Report& report) {
+  if (query.sweeps.empty()) {
+    Report found;
+    Plan plan = make_plan(steps_for(robot.coupled()), resolved.wishes, given, found);
+    Report otherwise;
+    if (found.has_errors() && robot.coupled())
+      make_plan(steps(), resolved.wishes, given, otherwise);
+    if (found.has_errors() && robot.coupled() && !otherwise.has_errors())
+      report.error({}, query.name,
+                   "what is asked takes joints one by one, but in this robot some follow others",
+                   "choose a base and tips between which no joint follows another");
+    else
+      for (const Problem& problem : found.problems()) report.add(problem);
+    return plan;
+  }
   const SweepConfiguration configuration = named_sweeps(query.sweeps);
   Plan plan;
   for (const SweepNames& names : configuration.sweeps) {
@@ -242,13 +252,21 @@ Plan plan_of(const Query& query, const Resolved& resolved, std::span<const std::
     plan.sweeps.push_back(std::move(sweep));
   }
   check_sweeps(plan.sweeps, given, configuration.iri, report);
+  for (const Sweep& sweep : plan.sweeps)
+    for (const Step* step : sweep.steps)
+      if (step->takes_joints_one_by_one && robot.coupled())
+        report.error({}, configuration.iri,
+                     fmt::format("step {} takes joints one by one, but in this robot some follow "
+                                 "others",
+                                 step->name),
+                     "leave the sweeps to the planner");
   return plan;
 }
 
 void hand_out(Context& context, const Resolved& resolved) {
   for (const Wanted& wanted : resolved.wanted)
-    context.builder.output(
-        context.block(wanted.quantity->slot, wanted.element),
+    hand_out(
+        context, wanted.quantity->slot, wanted.element,
         wanted.quantity->element == Element::kRobot ? wanted.quantity->name : std::string_view());
 }
 
@@ -278,7 +296,7 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
   Resolved resolved = resolve(store, view, robot, query, wrenches, report);
   wish_for_drivers(wrenches, query, resolved);
   const std::vector<std::string> given = given_slots(query);
-  const Plan plan = plan_of(query, resolved, given, report);
+  const Plan plan = plan_of(query, robot, resolved, given, report);
   report.throw_if_errors();
 
   graph::Terms& terms = store.terms();
