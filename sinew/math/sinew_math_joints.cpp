@@ -100,6 +100,7 @@ void sinew_couple_mass_matrix(const double* const in[], int, double* M) {
 }
 
 void sinew_couple_jacobian(const double* const in[], int, double* J) { couple(in, 6, J); }
+void sinew_couple_analytic_jacobian(const double* const in[], int, double* J) { couple(in, 7, J); }
 void sinew_couple_linear_jacobian(const double* const in[], int, double* J) { couple(in, 3, J); }
 void sinew_couple_momentum_matrix(const double* const in[], int, double* A) { couple(in, 6, A); }
 

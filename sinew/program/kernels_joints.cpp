@@ -154,6 +154,7 @@ std::vector<Kernel> kernels_of_joints() {
   many("floating-acceleration-of-robot", &join<double>, &join<Traced>, &fixed<6>);
   many("couple-mass-matrix", &couple_mass<double>, &couple_mass<Traced>, &of_coupled_mass);
   many("couple-jacobian", &couple<double, 6>, &couple<Traced, 6>, &of_coupled<6>);
+  many("couple-analytic-jacobian", &couple<double, 7>, &couple<Traced, 7>, &of_coupled<7>);
   many("couple-linear-jacobian", &couple<double, 3>, &couple<Traced, 3>, &of_coupled<3>);
   many("couple-momentum-matrix", &couple<double, 6>, &couple<Traced, 6>, &of_coupled<6>);
   many("factorise-mass-matrix", &factorise<double, &factorise_mass_matrix<double>>,

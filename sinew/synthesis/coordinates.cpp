@@ -253,6 +253,7 @@ std::string_view coupling_operator(std::string_view quantity) {
   for (const auto& [name, operation] :
        {std::pair<std::string_view, std::string_view>{"mass-matrix", "couple-mass-matrix"},
         {"jacobian", "couple-jacobian"},
+        {"analytic-jacobian", "couple-analytic-jacobian"},
         {"linear-jacobian", "couple-linear-jacobian"},
         {"momentum-matrix", "couple-momentum-matrix"}})
     if (name == quantity) return operation;

@@ -15,10 +15,20 @@ FreePart free_part(const Context& context, Id joint) {
   return {&whole, whole.parts.front() == index, whole.parts.back() == index};
 }
 
-bool floats_freely(const Context& context, const JointEdge& edge) {
-  if (edge.floats()) return true;
-  const FreePart part = free_part(context, edge.joint);
+namespace {
+
+bool ends_a_floating_one(const FreePart& part) {
   return part.whole != nullptr && part.last && part.whole->kind == "floating";
+}
+
+}  // namespace
+
+bool floats_freely(const Context& context, const JointEdge& edge) {
+  return edge.floats() || ends_a_floating_one(free_part(context, edge.joint));
+}
+
+bool floats_freely(const Context& context, const RobotJoint& joint) {
+  return joint.kind == "floating" || ends_a_floating_one(free_part(context, joint.joint));
 }
 
 algorithm::BlockSpec whole_quantity(const Context& context, const RobotCompound& whole,

@@ -20,6 +20,7 @@ FreePart free_part(const Context& context, Id joint);
 // Whether the relative twist of an edge is all of a floating joint's, seen from its successor: its
 // origin may accelerate while the numbers of its velocity do not change.
 bool floats_freely(const Context& context, const JointEdge& edge);
+bool floats_freely(const Context& context, const RobotJoint& joint);
 
 // The acceleration of a free joint, all its numbers: given, or put together from those of its
 // parts.
