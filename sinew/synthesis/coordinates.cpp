@@ -149,8 +149,8 @@ BlockIndex add_coupled(Context& context, std::string_view slot, std::size_t part
   };
   add(part, 1);
   for (const std::size_t k : followers(context.robot, part)) add(k, joints[k].ratio);
-  if (blocks.size() < 2 && (blocks.empty() || factors.front() == 1))
-    return context.block(slot, element(part));
+  if (blocks.empty()) return context.block(slot, element(part));
+  if (blocks.size() == 1 && factors.front() == 1) return blocks.front();
   const std::string own_slot = "coupled-" + std::string(slot);
   BlockSpec target = joint_quantity("force", joints[part]);
   target.slot = own_slot;
@@ -185,7 +185,7 @@ BlockIndex coupled_share(Context& context, Id pair) {
         const BlockIndex share = add_coupled(context, "force-share", part, [&](std::size_t k) {
           return context.pair(joints[k].joint, one.frame);
         });
-        if (context.builder.at(share).slot != "force-share")
+        if (share != context.board.find("force-share", pair))
           context.builder.rename(
               share,
               fmt::format("force-share.{}.{}",
