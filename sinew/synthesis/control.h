@@ -74,7 +74,7 @@ void decide(Control& control, const AskedForces& asked, std::span<const std::str
             Report& report, const graph::View& view);
 
 // All steps, and those of the task in their places.
-std::vector<Step> steps_with(const Control& control);
+std::vector<Step> steps_with(const Control& control, std::span<const Step> steps);
 
 // What the task calls for beside what is asked.
 std::vector<Wish> wishes_of(const Control& control, const AskedForces& asked);

@@ -61,11 +61,15 @@ struct Step {
   // Slots of the blackboard. What a step may use, it gets if it is given or made for somebody else.
   std::vector<std::string> needs, may_use, gives;
   std::vector<Visitor> visitors;
+  // Whether every joint must move by itself: no joint follows another.
+  bool takes_joints_one_by_one = false;
 };
 
 // Every step that comes with Sinew, in an order in which those that give come before those that
 // need.
 const std::vector<Step>& steps();
+// Those that a robot can have in which joints follow others; for others, all.
+std::span<const Step> steps_for(bool coupled);
 const Step* find_step(std::string_view name);  // nullptr when there is none
 
 }  // namespace sinew::synthesis

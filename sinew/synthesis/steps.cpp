@@ -38,6 +38,9 @@ std::vector<Step> make_steps() {
       composite_inertia_step(),
       total_inertia_step(),
       mass_matrix_step(),
+      cholesky_step(),
+      mass_matrix_decomposition_step(),
+      forward_dynamics_by_decomposition_step(),
       own_momentum_step(),
       momentum_step(),
       kinetic_energy_step(),
@@ -58,6 +61,16 @@ std::vector<Step> make_steps() {
 const std::vector<Step>& steps() {
   static const std::vector<Step> list = make_steps();
   return list;
+}
+
+std::span<const Step> steps_for(bool coupled) {
+  static const std::vector<Step> list = [] {
+    std::vector<Step> some;
+    for (const Step& step : steps())
+      if (!step.takes_joints_one_by_one) some.push_back(step);
+    return some;
+  }();
+  return coupled ? list : steps();
 }
 
 const Step* find_step(std::string_view name) {

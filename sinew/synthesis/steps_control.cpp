@@ -292,13 +292,13 @@ void decide(Control& control, const AskedForces& asked, std::span<const std::str
   }
 }
 
-std::vector<Step> steps_with(const Control& control) {
+std::vector<Step> steps_with(const Control& control, std::span<const Step> steps) {
   std::vector<Step> list;
   const auto needs_accelerations =
       std::find(control.needs.begin(), control.needs.end(), "acceleration-twist");
   const std::string_view before =
       needs_accelerations == control.needs.end() ? "joint-acceleration" : "inertia";
-  for (const Step& step : steps()) {
+  for (const Step& step : steps) {
     const bool distributes = control.drives == Drives::kDistribution;
     if (step.name == "jacobian" && distributes) continue;  // it comes earlier
     if (step.name == before) {

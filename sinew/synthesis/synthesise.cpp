@@ -10,12 +10,16 @@
 #include "sinew/synthesis/asked.h"
 #include "sinew/synthesis/context.h"
 #include "sinew/synthesis/control.h"
+#include "sinew/synthesis/coordinates.h"
+#include "sinew/synthesis/driver_list.h"
 #include "sinew/synthesis/drivers.h"
 #include "sinew/synthesis/external_wrenches.h"
 #include "sinew/synthesis/floating_base.h"
+#include "sinew/synthesis/hybrid_steps.h"
 #include "sinew/synthesis/plan.h"
 #include "sinew/synthesis/read_query.h"
 #include "sinew/synthesis/regroup.h"
+#include "sinew/synthesis/step_models.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -40,19 +44,6 @@ struct Resolved {
 
 std::string text(const graph::View& view, Id id) { return std::string(view.terms().text(id)); }
 
-const RobotJoint& find_joint(const graph::View& view, const Robot& robot, std::string_view name) {
-  for (const RobotJoint& joint : robot.joints) {
-    const std::string_view iri = view.terms().text(joint.joint);
-    if (iri == name || algorithm::short_name(iri) == name) return joint;
-  }
-  std::string known;
-  for (const RobotJoint& joint : robot.joints)
-    known += (known.empty() ? "" : ", ") +
-             std::string(algorithm::short_name(view.terms().text(joint.joint)));
-  throw Error(
-      Problem{{}, std::string(name), "no moving joint has this name", "one of " + known, {}, {}});
-}
-
 std::vector<Id> tips(graph::Store& store, const graph::View& view, const Robot& robot,
                      const Query& query) {
   if (query.tips.empty()) return leaf_frames(store, view, robot);
@@ -67,9 +58,15 @@ std::vector<Id> tips(graph::Store& store, const graph::View& view, const Robot& 
 
 // The elements that a question is about, in the order of the outputs.
 std::vector<Id> elements(graph::Store& store, const graph::View& view, const Robot& robot,
-                         const Query& query, const Asked& asked, Element kind) {
+                         const Query& query, const MotionDrivers& drivers, const Asked& asked,
+                         Element kind) {
   std::vector<Id> found;
   switch (kind) {
+    case Element::kConstraint:
+    case Element::kDriver:
+    case Element::kDriverJoint:
+    case Element::kLimited:
+      return driver_elements(store, robot, query, drivers, asked, kind);
     case Element::kRobot:
       return {robot.root_body};
     case Element::kFrame:
@@ -79,8 +76,12 @@ std::vector<Id> elements(graph::Store& store, const graph::View& view, const Rob
       return found;
     case Element::kJoint:
       if (!asked.of.empty() && asked.of != kEveryJoint)
-        return {find_joint(view, robot, asked.of).joint};
-      for (const RobotJoint& joint : robot.joints) found.push_back(joint.joint);
+        return {find_coordinate(view, robot, asked.of).joint};
+      for (const Coordinate& coordinate : coordinates(robot)) found.push_back(coordinate.joint);
+      // A joint that follows another has no numbers of its own, but a bearing.
+      if (asked.quantity == "joint-wrench")
+        for (const RobotJoint& joint : robot.joints)
+          if (joint.follows >= 0 && joint.compound < 0) found.push_back(joint.joint);
       return found;
   }
   return found;
@@ -98,11 +99,16 @@ std::vector<Id> shares(graph::Store& store, const graph::View& view, const Robot
                         {},
                         {}});
   std::vector<Id> pairs;
-  for (const RobotJoint& joint : robot.joints)
-    for (const ExternalWrench& one : wrenches)
-      for (const std::size_t on_the_way : path_to(robot, view, one.frame))
-        if (robot.joints[on_the_way].joint == joint.joint)
-          pairs.push_back(pair_of(store.terms(), joint.joint, one.frame));
+  for (const Coordinate& coordinate : coordinates(robot))
+    for (const std::size_t part : coordinate.parts)
+      for (const ExternalWrench& one : wrenches) {
+        // A wrench reaches a joint on its way, and by way of those that follow it.
+        const auto way = path_to(robot, view, one.frame);
+        const bool reaches = std::any_of(way.begin(), way.end(), [&](std::size_t at) {
+          return at == part || robot.joints[at].follows == static_cast<int>(part);
+        });
+        if (reaches) pairs.push_back(pair_of(store.terms(), robot.joints[part].joint, one.frame));
+      }
   return pairs;
 }
 
@@ -127,14 +133,20 @@ void check_directions(const Asked& asked, const AskedQuantity& row) {
 }
 
 Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robot,
-                 const Query& query, std::span<const ExternalWrench> wrenches, Report& report) {
+                 const Query& query, std::span<const ExternalWrench> wrenches,
+                 const MotionDrivers& drivers, std::span<const AskedQuantity> more,
+                 Report& report) {
   Resolved resolved;
   if (query.asked.empty())
     report.error({}, query.name, "the query asks for nothing", "state what is asked");
   for (const Asked& asked : query.asked) {
     const AskedQuantity* row = find_asked(asked.quantity);
+    for (const AskedQuantity& one : more)
+      if (one.name == asked.quantity) row = &one;
     if (row == nullptr) {
       std::string known;
+      for (const AskedQuantity& one : more)
+        known += (known.empty() ? "" : ", ") + std::string(one.name);
       for (const AskedQuantity& one : asked_quantities())
         known += (known.empty() ? "" : ", ") + std::string(one.name);
       report.error({}, query.name, fmt::format("nothing is known of {}", asked.quantity),
@@ -149,7 +161,7 @@ Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robo
       if (!between) check_directions(asked, *row);
       for (const Id element : row->name == "joint-force-share"
                                   ? shares(store, view, robot, query, wrenches)
-                                  : elements(store, view, robot, query, asked, row->element)) {
+                                  : elements(store, view, robot, query, drivers, asked, row->element)) {
         if (!between) {
           resolved.wanted.push_back({row, element, {element}});
           continue;
@@ -204,7 +216,8 @@ void wish_for_drivers(std::span<const ExternalWrench> wrenches, const Query& que
 
 // What the expansion queries and conditions see of the question.
 void write_asks(graph::Store& store, graph::Transaction& transaction, Id algorithm,
-                const Resolved& resolved) {
+                const Resolved& resolved, std::span<const ExternalWrench> wrenches,
+                const MotionDrivers& drivers) {
   graph::Terms& terms = store.terms();
   const auto sa = [&](std::string_view name) {
     return terms.iri(std::string(kAlgorithmNamespace) + std::string(name));
@@ -214,6 +227,10 @@ void write_asks(graph::Store& store, graph::Transaction& transaction, Id algorit
     transaction.add(
         {algorithm, sa("asks-" + std::string(wanted.quantity->name)), wanted.element, algorithm});
   }
+  for (const ExternalWrench& one : wrenches)  // their directions are the base's
+    if (one.seen_from_base) transaction.add({algorithm, sa("asks"), one.frame, algorithm});
+  for (const Id frame : constrained_frames(drivers))
+    transaction.add({algorithm, sa("asks"), frame, algorithm});
 }
 
 void set_scope(Context& context, const Resolved& resolved) {
@@ -224,10 +241,35 @@ void set_scope(Context& context, const Resolved& resolved) {
         context.scope.insert(context.robot.joints[joint].frame);
 }
 
+// Steps that the query's drivers call for, those that come with Sinew, and those of the graph:
+// where two give the same, the first one is taken.
+std::vector<Step> available_steps(const MotionDrivers& drivers, const StepModels& models,
+                                  bool coupled) {
+  std::vector<Step> list = hybrid_steps(drivers);
+  const std::span<const Step> ours = steps_for(coupled);
+  list.insert(list.end(), ours.begin(), ours.end());
+  list.insert(list.end(), models.steps.begin(), models.steps.end());
+  return list;
+}
+
 // The planner's sweeps, or those that somebody wrote.
-Plan plan_of(const Query& query, const Resolved& resolved, std::span<const Step> steps,
+Plan plan_of(const Query& query, const Robot& robot, const Resolved& resolved,
+             std::span<const Step> available, std::span<const Step> uncoupled,
              std::span<const std::string> given, Report& report) {
-  if (query.sweeps.empty()) return make_plan(steps, resolved.wishes, given, report);
+  if (query.sweeps.empty()) {
+    Report found;
+    Plan plan = make_plan(available, resolved.wishes, given, found);
+    Report otherwise;
+    if (found.has_errors() && robot.coupled())
+      make_plan(uncoupled, resolved.wishes, given, otherwise);
+    if (found.has_errors() && robot.coupled() && !otherwise.has_errors())
+      report.error({}, query.name,
+                   "what is asked takes joints one by one, but in this robot some follow others",
+                   "choose a base and tips between which no joint follows another");
+    else
+      for (const Problem& problem : found.problems()) report.add(problem);
+    return plan;
+  }
   const SweepConfiguration configuration = named_sweeps(query.sweeps);
   Plan plan;
   for (const SweepNames& names : configuration.sweeps) {
@@ -235,8 +277,10 @@ Plan plan_of(const Query& query, const Resolved& resolved, std::span<const Step>
         names.direction == to_string(Direction::kInward) ? Direction::kInward : Direction::kOutward,
         {}};
     for (const std::string& name : names.steps) {
-      if (const Step* step = find_step(name))
-        sweep.steps.push_back(step);
+      const auto step = std::find_if(available.begin(), available.end(),
+                                     [&](const Step& one) { return one.name == name; });
+      if (step != available.end())
+        sweep.steps.push_back(&*step);
       else
         report.error({}, configuration.iri, fmt::format("there is no step {}", name),
                      "name one of sinew/synthesis/steps.cpp");
@@ -245,14 +289,22 @@ Plan plan_of(const Query& query, const Resolved& resolved, std::span<const Step>
     plan.sweeps.push_back(std::move(sweep));
   }
   check_sweeps(plan.sweeps, given, configuration.iri, report);
+  for (const Sweep& sweep : plan.sweeps)
+    for (const Step* step : sweep.steps)
+      if (step->takes_joints_one_by_one && robot.coupled())
+        report.error({}, configuration.iri,
+                     fmt::format("step {} takes joints one by one, but in this robot some follow "
+                                 "others",
+                                 step->name),
+                     "leave the sweeps to the planner");
   return plan;
 }
 
 void hand_out(Context& context, const Resolved& resolved) {
   for (const Wanted& wanted : resolved.wanted) {
     if (!wanted.output) continue;
-    context.builder.output(
-        context.block(wanted.quantity->slot, wanted.element),
+    hand_out(
+        context, wanted.quantity->slot, wanted.element,
         wanted.quantity->element == Element::kRobot ? wanted.quantity->name : std::string_view());
   }
   for (const BlockIndex block : context.task_outputs) context.builder.output(block);
@@ -311,7 +363,7 @@ Robot read_floating_robot(graph::Store& store, const graph::View& view, const Ro
 
 }  // namespace
 
-Synthesis synthesise(graph::Store& store, const Query& query) {
+Synthesis synthesise(graph::Store& store, const Query& query, const graph::Places* places) {
   graph::Transaction transaction = store.begin();
   const graph::View view = transaction.view();
   Robot robot = read_robot(store, view);
@@ -324,16 +376,26 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
 
   Report report;
   const std::vector<ExternalWrench> wrenches = external_wrenches(store, view, robot, query, report);
-  Resolved resolved = resolve(store, view, robot, query, wrenches, report);
+  MotionDrivers drivers = resolve_motion_drivers(store, view, robot, query, wrenches, report);
+  const StepModels models = read_step_models(store, view, places, report);
+  report.throw_if_errors();
+  std::vector<AskedQuantity> answered;
+  for (const AnsweredQuantity& one : models.answers) answered.push_back(one.row());
+  Resolved resolved = resolve(store, view, robot, query, wrenches, drivers, answered, report);
   wish_for_drivers(wrenches, query, resolved);
   const std::vector<std::string> given = given_slots(query);
   std::optional<Control> control;
   if (query.task && !query.task->empty())
     control = control_of(store, view, robot, query, given, resolved, report);
   report.throw_if_errors();
-  const std::vector<Step> task_steps = control ? steps_with(*control) : std::vector<Step>();
-  const Plan plan =
-      plan_of(query, resolved, control ? std::span(task_steps) : std::span(steps()), given, report);
+  std::vector<Step> uncoupled = available_steps(drivers, models, false);
+  std::vector<Step> available = available_steps(drivers, models, robot.coupled());
+  if (control) {
+    uncoupled = steps_with(*control, uncoupled);
+    available = steps_with(*control, available);
+  }
+  const Plan plan = plan_of(query, robot, resolved, available, uncoupled, given, report);
+  if (!report.has_errors()) check_drivers_are_used(drivers, plan, report);
   report.throw_if_errors();
 
   graph::Terms& terms = store.terms();
@@ -362,7 +424,7 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
   if (falls && !gravity_varies(query)) context.gravity = gravity(context, result.notes);
   context.inertias = stated_inertias(context);
   if (query.regroup && resolved.regroups) regroup(context, context.inertias);
-  write_asks(store, transaction, result.algorithm, resolved);
+  write_asks(store, transaction, result.algorithm, resolved, wrenches, context.drivers);
   if (!control) set_scope(context, resolved);  // a task may speak of any joint
   if (control) context.control = &*control;
   make_drivers(context, report);
@@ -370,6 +432,8 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
 
   result.counts = run_sweeps(context, plan.sweeps);
   hand_out(context, resolved);
+  write_driver_list(context, transaction);
+  transaction.clear(context.slots_graph());
   builder.finish();
   floating.reset();
   transaction.commit();
