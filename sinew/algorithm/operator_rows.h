@@ -25,5 +25,7 @@ std::span<const OperatorRow> control_operator_rows();
 std::span<const OperatorRow> relative_operator_rows();
 // operators_joints.cpp: joints of several degrees of freedom, coupled joints, factors
 std::span<const OperatorRow> joint_operator_rows();
+// operators_hybrid.cpp: acceleration constraints and drivers
+std::span<const OperatorRow> hybrid_operator_rows();
 
 }  // namespace sinew::algorithm
