@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/base/error.h"
 #include "sinew/task/task.h"
 
 namespace sinew::synthesis {
@@ -60,6 +61,9 @@ enum class Frames {
 
 struct Query {
   std::string name;  // of the program that answers it
+  // Of its model, for errors; empty where it has none.
+  std::string iri = {};
+  Place place = {};
   std::vector<Asked> asked;
   std::vector<Given> given;
 
