@@ -21,7 +21,7 @@ void agree(T& value, const T& other, const T& unstated, std::string_view what, c
   if (other == unstated || other == value) return;
   if (value != unstated)
     throw Error(Problem{{},
-                        query.name,
+                        query.iri.empty() ? query.name : query.iri,
                         fmt::format("it is asked together with a query of another {}", what),
                         fmt::format("let both have the same {}, or ask them apart", what),
                         {},
@@ -35,6 +35,10 @@ Query combined(std::span<const Query> queries) {
   Query all;
   for (const Query& query : queries) {
     all.name += (all.name.empty() ? "" : "_") + query.name;
+    if (all.iri.empty()) {  // faults are named after the first that has a model
+      all.iri = query.iri;
+      all.place = query.place;
+    }
     add_each_once(all.asked, query.asked);
     add_each_once(all.given, query.given);
     agree(all.base, query.base, {}, "base", query);
@@ -44,7 +48,11 @@ Query combined(std::span<const Query> queries) {
     agree(all.floating, query.floating, false, "kind of base", query);
     agree(all.forces, query.forces, Forces::kTogether, "policy for forces", query);
     agree(all.frames, query.frames, Frames::kMoving, "policy for frames", query);
+<<<<<<< HEAD
     agree(all.drivers, query.drivers, {}, "policy for drivers", query);
+=======
+    agree(all.task, query.task, {}, "task", query);
+>>>>>>> x_qty
     all.regroup = all.regroup && query.regroup;
   }
   return all;

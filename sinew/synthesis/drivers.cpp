@@ -40,11 +40,18 @@ void check(const Query& query, Report& report) {
         report.error({}, given.of, fmt::format("{} is given twice", given.quantity),
                      "give it once");
   }
-  if (gives(query, "joint-force") && gives(query, "joint-acceleration"))
-    report.error({}, "",
-                 "both the force and the acceleration of every joint are given: they contradict "
-                 "each other",
-                 "give one of them; the other can be asked");
+  for (const Given& force : query.given)
+    for (const Given& acceleration : query.given) {
+      if (force.quantity != "joint-force" || acceleration.quantity != "joint-acceleration" ||
+          force.of != acceleration.of)
+        continue;
+      const bool all = force.of.empty() || force.of == kEveryJoint;
+      report.error({}, all ? "" : force.of,
+                   fmt::format("both the force and the acceleration of {} are given: they "
+                               "contradict each other",
+                               all ? "every joint" : "this joint"),
+                   "give one of them; the other can be asked");
+    }
 }
 
 // Seen from an observer in free fall, a root at rest accelerates against gravity.

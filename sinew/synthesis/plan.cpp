@@ -48,7 +48,9 @@ class Planner {
                    "ask for a quantity that `sinew synth --help` lists");
       return;
     }
-    for (const std::string& slot : missing) {
+    for (auto at = missing.begin(); at != missing.end(); ++at) {
+      if (std::find(missing.begin(), at, *at) != at) continue;
+      const std::string& slot = *at;
       const GivenQuantity* driver = find_given_for(slot);
       const std::string name(driver ? driver->name : std::string_view(slot));
       report.error({}, "", fmt::format("{} cannot be computed without {}", wish.asked, name),
@@ -83,8 +85,10 @@ class Planner {
   bool take(const Step& step, const std::string& slot, const std::string& why,
             std::vector<std::string>& missing) {
     const std::size_t mark = taken_.size();
-    for (const std::string& need : step.needs) {
-      if (obtain(need, "needed by " + step.name, missing)) continue;
+    bool complete = true;  // all that is missing is to be named, so no need is left out
+    for (const std::string& need : step.needs)
+      complete &= obtain(need, "needed by " + step.name, missing);
+    if (!complete) {
       while (taken_.size() > mark) {
         for (const std::string& gift : taken_.back()->gives) made_.erase(gift);
         why_.erase(taken_.back());

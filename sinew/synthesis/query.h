@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/base/error.h"
 #include "sinew/task/task.h"
 
 namespace sinew::synthesis {
@@ -88,6 +89,9 @@ struct DriverPolicy {
 
 struct Query {
   std::string name;  // of the program that answers it
+  // Of its model, for errors; empty where it has none.
+  std::string iri = {};
+  Place place = {};
   std::vector<Asked> asked;
   std::vector<Given> given;
 

@@ -251,6 +251,8 @@ std::string_view embedded(std::string_view file) {
 Query read_query(const graph::View& view, Id node, const graph::Places* places, Report& report) {
   Reader reader(view, places, report);
   Query query;
+  query.iri = view.terms().text(node);
+  if (places != nullptr) query.place = places->find(node, reader.word("asks"));
   query.name = reader.text(node, "name");
   if (query.name.empty()) query.name = short_name(view.terms().text(node));
   for (const Id asked : reader.list(node, "asks"))

@@ -206,11 +206,19 @@ Id find_frame(graph::Store& store, const View& view, std::string_view name) {
     for (const Id one : *list) all += (all.empty() ? "" : ", ") + text(view, one);
     throw fault(std::string(name), "several frames have this name: " + all, "use the whole IRI");
   }
-  std::string some;
-  for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 8); ++i)
-    some += (i ? ", " : "") + std::string(short_name(view.terms().text(rows[i][0])));
-  throw fault(std::string(name), "no frame or link of the tree has this name",
-              fmt::format("one of {}{}", some, rows.size() > 8 ? ", ..." : ""));
+  // Frames that nobody named have no name that would help.
+  std::vector<std::string> known;
+  for (const Row& row : rows)
+    if (row[1]) known.emplace_back(short_name(view.terms().text(row[1])));
+  if (known.empty())
+    for (const Row& row : rows) known.emplace_back(short_name(view.terms().text(row[0])));
+  std::sort(known.begin(), known.end());
+  constexpr std::size_t kNamesInAnError = 12;
+  const bool more = known.size() > kNamesInAnError;
+  if (more) known.resize(kNamesInAnError);
+  throw fault(
+      std::string(name), "no frame or link of the tree has this name",
+      fmt::format("a frame's IRI, or one of {}{}", fmt::join(known, ", "), more ? ", ..." : ""));
 }
 
 Id body_frame(const View& view, Id frame) {

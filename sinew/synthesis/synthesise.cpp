@@ -353,6 +353,17 @@ void add_elements(const task::Task& task, std::vector<Id>& facts) {
   for (const task::Controller& controller : task.controllers) facts.push_back(controller.id);
 }
 
+// What no element of the model is to blame for is the query's own fault.
+void throw_with_query(const Query& query, const Report& report) {
+  Report named;
+  for (Problem problem : report.problems()) {
+    if (problem.iri.empty()) problem.iri = query.iri;
+    if (problem.place.file.empty()) problem.place = query.place;
+    named.add(std::move(problem));
+  }
+  named.throw_if_errors();
+}
+
 // The same robot from the world; its base's name stands for the six degrees of freedom of the base.
 Robot read_floating_robot(graph::Store& store, const graph::View& view, const Robot& fixed) {
   Robot robot = read_robot(store, view);
@@ -387,6 +398,7 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   std::optional<Control> control;
   if (query.task && !query.task->empty())
     control = control_of(store, view, robot, query, given, resolved, report);
+<<<<<<< HEAD
   report.throw_if_errors();
   std::vector<Step> uncoupled = available_steps(drivers, models, false);
   std::vector<Step> available = available_steps(drivers, models, robot.coupled());
@@ -397,6 +409,13 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   const Plan plan = plan_of(query, robot, resolved, available, uncoupled, given, report);
   if (!report.has_errors()) check_drivers_are_used(drivers, plan, report);
   report.throw_if_errors();
+=======
+  throw_with_query(query, report);
+  const std::vector<Step> task_steps = control ? steps_with(*control) : std::vector<Step>();
+  const Plan plan =
+      plan_of(query, resolved, control ? std::span(task_steps) : std::span(steps()), given, report);
+  throw_with_query(query, report);
+>>>>>>> x_qty
 
   graph::Terms& terms = store.terms();
   Synthesis result;
@@ -428,7 +447,7 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   if (!control) set_scope(context, resolved);  // a task may speak of any joint
   if (control) context.control = &*control;
   make_drivers(context, report);
-  report.throw_if_errors();
+  throw_with_query(query, report);
 
   result.counts = run_sweeps(context, plan.sweeps);
   hand_out(context, resolved);
