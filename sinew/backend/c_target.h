@@ -33,11 +33,11 @@ enum class Language {
 struct COptions {
   std::string name;  // of the function and of the files
   Style style = Style::kFlat;
-  std::string source;  // what it was made from, for the banner: "gen3.urdf, solver rnea"
+  std::string source = {};  // what it was made from, for the banner: "gen3.urdf, solver rnea"
   Scalar scalar = Scalar::kDouble;
   Language language = Language::kC;
-  program::OptimiseOptions passes;
-  program::PartialOptions partial;  // flat style only: what NAME_update computes
+  program::OptimiseOptions passes = {};
+  program::PartialOptions partial = {};  // flat style only: what NAME_update computes
   // Limbs that are alike are computed side by side where that pays (program/limbs), in single calls
   // of flat C.
   bool limbs = true;

@@ -398,8 +398,7 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   std::optional<Control> control;
   if (query.task && !query.task->empty())
     control = control_of(store, view, robot, query, given, resolved, report);
-<<<<<<< HEAD
-  report.throw_if_errors();
+  throw_with_query(query, report);
   std::vector<Step> uncoupled = available_steps(drivers, models, false);
   std::vector<Step> available = available_steps(drivers, models, robot.coupled());
   if (control) {
@@ -408,14 +407,7 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   }
   const Plan plan = plan_of(query, robot, resolved, available, uncoupled, given, report);
   if (!report.has_errors()) check_drivers_are_used(drivers, plan, report);
-  report.throw_if_errors();
-=======
   throw_with_query(query, report);
-  const std::vector<Step> task_steps = control ? steps_with(*control) : std::vector<Step>();
-  const Plan plan =
-      plan_of(query, resolved, control ? std::span(task_steps) : std::span(steps()), given, report);
-  throw_with_query(query, report);
->>>>>>> x_qty
 
   graph::Terms& terms = store.terms();
   Synthesis result;

@@ -61,8 +61,13 @@ class Peer {
   // form; `call` sets one of them and makes the library's own calls for a solver of ours (rnea,
   // aba, crba, fpk, jacobian: of the last link), leaving the result in the library. False where it
   // has none.
-  virtual void load(const std::vector<State>& states, const std::vector<Vector>& forces) = 0;
-  virtual bool call(std::string_view solver, std::size_t state) = 0;
+  virtual void load(const std::vector<State>& states, const std::vector<Vector>& forces) {
+    static_cast<void>(states), static_cast<void>(forces);
+  }
+  virtual bool call(std::string_view solver, std::size_t state) {
+    static_cast<void>(solver), static_cast<void>(state);
+    return false;
+  }
 };
 
 // Throw std::runtime_error with what the library says.
