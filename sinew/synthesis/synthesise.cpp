@@ -432,6 +432,8 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
                 : robot.root_body};
   context.wrenches = wrenches;
   context.relations = resolved.relations;
+  context.drivers = std::move(drivers);
+  context.transaction = &transaction;
   if (falls && !gravity_varies(query)) context.gravity = gravity(context, result.notes);
   context.inertias = stated_inertias(context);
   if (query.regroup && resolved.regroups) regroup(context, context.inertias);
