@@ -110,7 +110,7 @@ TEST(HybridOnTrees, AgreesWithTheDenseSolution) {
   for (const Case& what :
        {Case{4, 0, 2, false}, Case{8, 0.3, 3, false}, Case{12, 0.5, 5, false},
         Case{20, 0.7, 6, false}, Case{30, 0.4, 8, false}, Case{60, 0.5, 12, false}})
-    for (int i = 0; i < 4; ++i) compare(what, ++seed, compared);
+    for (int i = 0; i < 8; ++i) compare(what, ++seed, compared);
   EXPECT_GT(compared, 120u);
 }
 

@@ -291,7 +291,7 @@ TEST_P(UrdfFault, IsRefusedWithItsLine) {
   EXPECT_EQ(model.store.view().size(), 0u);  // nothing was added
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, UrdfFault, testing::Range<std::size_t>(0, 28),
+INSTANTIATE_TEST_SUITE_P(Each, UrdfFault, testing::Range<std::size_t>(0, faults().size()),
                          [](const auto& info) { return faults()[info.param].name; });
 
 TEST(Urdf, LeavesOutUnknownElementsWhereOneAsksForIt) {
