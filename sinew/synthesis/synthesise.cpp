@@ -259,10 +259,9 @@ void hand_out(Context& context, const Resolved& resolved) {
 }
 
 // What a task adds to the question: which forces it acts on, the frames that it measures.
-Control control_of(graph::Store& store, const graph::View& view, const Robot& robot,
-                   const Query& query, std::span<const std::string> given, Resolved& resolved,
-                   Report& report) {
-  Control control = place_task(store, view, robot, query.task, report);
+Control control_of(const graph::View& view, const Robot& robot, const Query& query,
+                   std::span<const std::string> given, Resolved& resolved, Report& report) {
+  Control control = place_task(view, robot, query.task, report);
   AskedForces asked;
   for (const Wanted& wanted : resolved.wanted) {
     asked.full |= wanted.quantity->name == "joint-force";
@@ -329,7 +328,7 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
   const std::vector<std::string> given = given_slots(query);
   std::optional<Control> control;
   if (query.task && !query.task->empty())
-    control = control_of(store, view, robot, query, given, resolved, report);
+    control = control_of(view, robot, query, given, resolved, report);
   report.throw_if_errors();
   const std::vector<Step> task_steps = control ? steps_with(*control) : std::vector<Step>();
   const Plan plan =
