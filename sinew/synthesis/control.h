@@ -60,7 +60,7 @@ struct Control {
 };
 
 // Finds frames, bodies and joints; what is not on the robot goes to the report, by its IRI.
-Control place_task(graph::Store& store, const graph::View& view, const Robot& robot,
+Control place_task(const graph::View& view, const Robot& robot,
                    std::shared_ptr<const task::Task> task, Report& report);
 
 // What the query asks, as far as it matters to the task: which joint forces.

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "sinew/algorithm/names.h"
-#include "sinew/rdf/sparql/prepared.h"
 #include "sinew/synthesis/control.h"
 
 namespace sinew::synthesis {
@@ -22,9 +21,8 @@ constexpr Pose kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
 class Placer {
  public:
-  Placer(graph::Store& store, const graph::View& view, const Robot& robot, Report& report,
-         Control& control)
-      : store_(store), view_(view), robot_(robot), report_(report), control_(control) {}
+  Placer(const graph::View& view, const Robot& robot, Report& report, Control& control)
+      : view_(view), robot_(robot), report_(report), control_(control) {}
 
   void place() {
     const task::Task& task = *control_.task;
@@ -308,7 +306,6 @@ class Placer {
     }
   }
 
-  graph::Store& store_;
   const graph::View& view_;
   const Robot& robot_;
   Report& report_;
@@ -317,11 +314,11 @@ class Placer {
 
 }  // namespace
 
-Control place_task(graph::Store& store, const graph::View& view, const Robot& robot,
+Control place_task(const graph::View& view, const Robot& robot,
                    std::shared_ptr<const task::Task> task, Report& report) {
   Control control;
   control.task = std::move(task);
-  Placer(store, view, robot, report, control).place();
+  Placer(view, robot, report, control).place();
   return control;
 }
 

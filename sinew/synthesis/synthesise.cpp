@@ -311,10 +311,9 @@ void hand_out(Context& context, const Resolved& resolved) {
 }
 
 // What a task adds to the question: which forces it acts on, the frames that it measures.
-Control control_of(graph::Store& store, const graph::View& view, const Robot& robot,
-                   const Query& query, std::span<const std::string> given, Resolved& resolved,
-                   Report& report) {
-  Control control = place_task(store, view, robot, query.task, report);
+Control control_of(const graph::View& view, const Robot& robot, const Query& query,
+                   std::span<const std::string> given, Resolved& resolved, Report& report) {
+  Control control = place_task(view, robot, query.task, report);
   AskedForces asked;
   for (const Wanted& wanted : resolved.wanted) {
     asked.full |= wanted.quantity->name == "joint-force";
@@ -397,7 +396,7 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   const std::vector<std::string> given = given_slots(query);
   std::optional<Control> control;
   if (query.task && !query.task->empty())
-    control = control_of(store, view, robot, query, given, resolved, report);
+    control = control_of(view, robot, query, given, resolved, report);
   throw_with_query(query, report);
   std::vector<Step> uncoupled = available_steps(drivers, models, false);
   std::vector<Step> available = available_steps(drivers, models, robot.coupled());

@@ -32,6 +32,7 @@ class Checker {
     for (const Monitor& monitor : task_.monitors) check(monitor);
     for (const Controller& controller : task_.controllers) check(controller);
     for (const Handler& handler : task_.handlers) check(handler);
+    one_handler();
   }
 
  private:
@@ -123,6 +124,21 @@ class Checker {
     if (controller.kind == ControllerKind::kPid && (handler == nullptr || !handler->period_s))
       reader_.error(controller.id, "", "it integrates over time, but nothing says in which steps",
                     "put it among the controllers of a ConstraintHandler with a \"period\"");
+  }
+
+  // An element runs at one rate and with one motion.
+  void one_handler() {
+    std::unordered_map<Id, Id> of;
+    for (const Handler& handler : task_.handlers)
+      for (const auto* list : {&handler.evaluators, &handler.monitors, &handler.controllers})
+        for (const Id element : *list) {
+          const auto [found, fresh] = of.try_emplace(element, handler.id);
+          if (!fresh && found->second != handler.id)
+            reader_.error(element, "",
+                          fmt::format("it belongs to <{}> and to <{}>", text(found->second),
+                                      text(handler.id)),
+                          "one handler for each element");
+        }
   }
 
   bool is_watched(Id constraint) const {

@@ -168,6 +168,12 @@ void read_controller(Reader& reader, Id node) {
   controller.id = node;
   const auto is = [&](std::string_view type) { return reader.is_a(node, type); };
   const bool spatial = is(st::PoseImpedanceController);
+  const int kinds = is(hdl::DampingController) + is(hdl::ProportionalIntegralDerivative) +
+                    (spatial || is(hdl::ImpedanceController));
+  if (kinds > 1) {
+    reader.error(node, "", "one controller of several kinds", "make a controller of each");
+    return;
+  }
   if (is(hdl::DampingController)) {
     read_damping(reader, controller);
   } else if (is(hdl::ProportionalIntegralDerivative)) {

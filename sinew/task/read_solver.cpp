@@ -33,6 +33,11 @@ void check_joints(Reader& reader, const std::vector<Driver>& drivers, JointKind 
 void read_drivers(Reader& reader, Id node, Solver& solver) {
   const Id drivers_node = reader.required(node, slv::motion_drivers, "the motion drivers");
   if (!drivers_node) return;
+  for (const std::string_view property :
+       {slv::acceleration_constraint, slv::prioritization_hierarchy})
+    if (!reader.objects(drivers_node, property).empty())
+      reader.error(drivers_node, property, "a task does not drive hybrid dynamics",
+                   "state acceleration constraints and their priorities in a query");
   solver.cartesian_forces =
       drivers(reader, drivers_node, slv::cartesian_force, slv::force, "the wrench");
   solver.joint_forces =

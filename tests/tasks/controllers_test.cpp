@@ -164,6 +164,17 @@ TEST(Controllers, APeriodThatIsNoWholeMultipleIsRefused) {
   }
 }
 
+TEST(Controllers, AHandlerThatIsFarTooSlowIsRefused) {
+  const std::string nodes = pid("", 1, 1, 0, "") + "," + constant("age", "SEC", 20000) + R"(,
+  { "@id": "t:other", "@type": "ConstraintHandler", "period": "t:age" })";
+  try {
+    Loop loop(nodes, pose());
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("at most 1000000"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Controllers, ANumberThatDependsOnItselfIsRefused) {
   const std::string nodes = constant("goal", "N", 1) + "," + quantity("error", "N") + "," +
                             quantity("force", "N") + "," + constant("kp", "UNITLESS", 1) + "," +

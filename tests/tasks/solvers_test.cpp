@@ -335,6 +335,16 @@ TEST(TaskSolvers, RefuseWhatIsNotOnTheRobot) {
       {"task/push", "acts on"});
 }
 
+TEST(TaskSolvers, RefuseAJointThatTheRobotDoesNotHave) {
+  const std::string drive = R"(, "joint-force": { "@id": "t:drive",
+      "@type": "JointForceSpecification", "force": "t:joint-torque",
+      "attached-to": "arm:joint/elbow" })";
+  expect_refused(replaced(kJointSpring, R"("of-joint": "arm:joint/elbow")",
+                          R"("of-joint": "arm:joint/knee")") +
+                     solver("RecursiveNewtonEulerAlgorithm", drive),
+                 {}, {"arm/joint/knee", "no moving joint of the robot", "shoulder, elbow"});
+}
+
 TEST(TaskSolvers, SayWhatTheTaskMustBeGiven) {
   expect_refused(damper() + "," + solver("RecursiveNewtonEulerAlgorithm", kPush), asked("gravity"),
                  {"the task cannot be computed without joint-velocity"});
