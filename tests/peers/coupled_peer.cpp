@@ -76,6 +76,19 @@ class CoupledPeer final : public Peer {
     return numbers(J * G_);
   }
 
+  // The library moves every joint by itself: its own calls are for all of them, and none of them
+  // accelerates what follows.
+  void load(const std::vector<State>& states, const std::vector<Vector>& forces) override {
+    std::vector<State> full;
+    for (const State& state : states) full.push_back(all(state));
+    std::vector<Vector> padded = forces;
+    for (Vector& force : padded) force.resize(force.size() + followers_.size(), 0.0);
+    peer_->load(full, padded);
+  }
+  bool call(std::string_view solver, std::size_t state) override {
+    return solver != "aba" && peer_->call(solver, state);
+  }
+
  private:
   State all(const State& state) const {
     State full = state;
