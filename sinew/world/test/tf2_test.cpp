@@ -99,7 +99,7 @@ TEST(Tf2, RandomTreesGiveTheSamePosesLatestAndInterpolated) {
       if (t.buffer.lookup(t.names[to], t.names[of], ns_of(stamp), &theirs)) {
         ASSERT_EQ(at.status, Status::kOk) << to_string(at.status);
         // tf2 takes its angle from acos, which loses half of the digits where rotations are close.
-        EXPECT_LT(difference(at.pose, pose(theirs)), 1e-9) << "seed " << seed;
+        EXPECT_LT(difference(at.pose, pose(theirs)), kTolerance) << "seed " << seed;
         ++interpolated;
       } else {
         EXPECT_TRUE(at.status == Status::kTooNew || at.status == Status::kTooOld);

@@ -1,0 +1,186 @@
+// The graph under the world beside libcgraph, the library that the source's property graph was
+// built on: inserting nodes with an edge each, visiting every node's edges. Names are made
+// beforehand.
+#include <benchmark/benchmark.h>
+#ifdef SINEW_HAVE_CGRAPH
+#include <graphviz/cgraph.h>
+#endif
+
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "sinew/graph/store.h"
+#include "sinew/world/edit.h"
+#include "sinew/world/world.h"
+
+namespace {
+
+using namespace sinew;
+
+constexpr int kNodes = 10'000;
+
+// Node i is linked to an earlier one.
+struct Names {
+  Names() {
+    std::mt19937 random(5);
+    for (int i = 0; i < kNodes; ++i) {
+      nodes.push_back("http://bench/node" + std::to_string(i));
+      edges.push_back("http://bench/edge" + std::to_string(i));
+      parents.push_back(i == 0 ? 0 : random() % static_cast<unsigned>(i));
+    }
+  }
+  std::vector<std::string> nodes, edges;
+  std::vector<std::size_t> parents;
+};
+const Names& names() {
+  static const Names made;
+  return made;
+}
+
+void count(benchmark::State& state) { state.SetItemsProcessed(state.iterations() * kNodes); }
+
+// ---- the quad store: a triple for each edge ----
+
+struct Inserted {
+  graph::Store store;
+  std::vector<graph::Id> nodes;
+  graph::Id linked = store.terms().iri("http://bench/linked");
+  Inserted() {
+    nodes.reserve(kNodes);
+    graph::Transaction transaction = store.begin();
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      nodes.push_back(store.terms().iri(names().nodes[i]));
+      transaction.add({nodes[i], linked, nodes[names().parents[i]], {}});
+    }
+    transaction.commit();
+  }
+};
+
+void BM_insert_graph(benchmark::State& state) {
+  names();
+  for (auto _ : state) {
+    const auto made = std::make_unique<Inserted>();
+    benchmark::DoNotOptimize(made->nodes.data());
+  }
+  count(state);
+}
+BENCHMARK(BM_insert_graph)->Unit(benchmark::kMicrosecond);
+
+// From every node to those that it is linked to.
+void BM_visit_graph(benchmark::State& state) {
+  const Inserted made;
+  const graph::Snapshot snapshot = made.store.snapshot();
+  for (auto _ : state) {
+    std::uint64_t sum = 0;
+    for (const graph::Id node : made.nodes) {
+      snapshot.match(node, made.linked, {}, graph::Dataset::kUnion, [&](const graph::Quad& quad) {
+        sum += quad.object.value;
+        return true;
+      });
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+  count(state);
+}
+BENCHMARK(BM_visit_graph)->Unit(benchmark::kMicrosecond);
+
+// All edges, whatever their node.
+void BM_visit_all_graph(benchmark::State& state) {
+  const Inserted made;
+  const graph::Snapshot snapshot = made.store.snapshot();
+  for (auto _ : state) {
+    std::uint64_t sum = 0;
+    snapshot.match({}, {}, {}, graph::Dataset::kUnion, [&](const graph::Quad& quad) {
+      sum += quad.object.value;
+      return true;
+    });
+    benchmark::DoNotOptimize(sum);
+  }
+  count(state);
+}
+BENCHMARK(BM_visit_all_graph)->Unit(benchmark::kMicrosecond);
+
+// ---- the world: a frame and a named relation for each node ----
+
+std::unique_ptr<world::World> world_of_names() {
+  auto made = std::make_unique<world::World>();
+  world::Edit edit = made->edit();
+  std::vector<world::FrameId> frames;
+  frames.reserve(kNodes);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    frames.push_back(edit.add_frame(names().nodes[i]));
+    if (i == 0) continue;
+    edit.add_relation(
+        {.name = names().edges[i], .of = frames[i], .with_respect_to = frames[names().parents[i]]});
+  }
+  edit.commit();
+  return made;
+}
+
+void BM_insert_world(benchmark::State& state) {
+  names();
+  for (auto _ : state) benchmark::DoNotOptimize(world_of_names());
+  count(state);
+}
+BENCHMARK(BM_insert_world)->Unit(benchmark::kMicrosecond);
+
+// From every frame over its list of relations.
+void BM_visit_world(benchmark::State& state) {
+  const auto made = world_of_names();
+  const world::State now = made->state();
+  for (auto _ : state) {
+    std::uint64_t sum = 0;
+    for (world::Index frame = 0; frame < now.frames.size(); ++frame) {
+      for (world::Index at = now.frames[frame].first_relation; at != world::kNone;) {
+        const world::RelationRecord& relation = now.relations[at];
+        sum += relation.with_respect_to;
+        at = relation.of == frame ? relation.next_at_of : relation.next_at_with_respect_to;
+      }
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+  count(state);
+}
+BENCHMARK(BM_visit_world)->Unit(benchmark::kMicrosecond);
+
+#ifdef SINEW_HAVE_CGRAPH
+// ---- libcgraph ----
+
+Agraph_t* cgraph_of_names() {
+  Agraph_t* const graph = agopen(const_cast<char*>("bench"), Agdirected, nullptr);
+  std::vector<Agnode_t*> nodes;
+  nodes.reserve(kNodes);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    nodes.push_back(agnode(graph, const_cast<char*>(names().nodes[i].c_str()), 1));
+    agedge(graph, nodes[i], nodes[names().parents[i]], nullptr, 1);
+  }
+  return graph;
+}
+
+void BM_cgraph_insert(benchmark::State& state) {
+  names();
+  for (auto _ : state) agclose(cgraph_of_names());
+  count(state);
+}
+BENCHMARK(BM_cgraph_insert)->Unit(benchmark::kMicrosecond);
+
+void BM_cgraph_visit(benchmark::State& state) {
+  Agraph_t* const graph = cgraph_of_names();
+  for (auto _ : state) {
+    std::uint64_t sum = 0;
+    for (Agnode_t* node = agfstnode(graph); node; node = agnxtnode(graph, node)) {
+      for (Agedge_t* edge = agfstout(graph, node); edge; edge = agnxtout(graph, edge)) {
+        sum += AGID(aghead(edge));
+      }
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+  count(state);
+  agclose(graph);
+}
+BENCHMARK(BM_cgraph_visit)->Unit(benchmark::kMicrosecond);
+#endif
+
+}  // namespace
