@@ -176,6 +176,11 @@ void Builder::output(std::uint32_t index, std::string_view name) {
   if (block.role != Role::kInput) block.index = outputs_++;
 }
 
+void Builder::rename(std::uint32_t block, std::string name) {
+  ++name_uses_[name];
+  algorithm_.blocks[block].name = std::move(name);
+}
+
 void Builder::finish() {
   std::vector<Id> chain;
   chain.reserve(algorithm_.schedule.size());

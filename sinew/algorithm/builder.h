@@ -65,6 +65,9 @@ class Builder {
   // Hands a block out, after the outputs so far; under another name than its own, if one is given.
   void output(std::uint32_t block, std::string_view name = {});
 
+  // Gives a block another name, which nothing else may have. Before finish().
+  void rename(std::uint32_t block, std::string name);
+
   // Writes what is only known at the end (the schedule, the interface) and checks the whole. The
   // builder is not to be used afterwards.
   void finish();

@@ -545,10 +545,13 @@ struct Catalogue {
   Catalogue() {
     const std::span<const Row> control = control_operator_rows();
     const std::span<const Row> relative = relative_operator_rows();
-    all.reserve(std::size(kRows) + control.size() + relative.size() + std::size(kExternalRows));
+    const std::span<const Row> joints = joint_operator_rows();
+    all.reserve(std::size(kRows) + control.size() + relative.size() + joints.size() +
+                std::size(kExternalRows));
     for (const Row& row : kRows) add(row, false);
     for (const Row& row : control) add(row, false);
     for (const Row& row : relative) add(row, false);
+    for (const Row& row : joints) add(row, false);
     for (const Row& row : kExternalRows) add(row, true);
     for (const Operator& op : all) {
       if (!by_name.emplace(op.name, &op).second || !by_iri.emplace(op.iri, &op).second)

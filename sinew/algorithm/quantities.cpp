@@ -31,6 +31,21 @@ constexpr std::array kQuantities = {
     Quantity{"floating-velocity", 6, "RAD-PER-SEC M-PER-SEC", "", kJoint},
     Quantity{"floating-acceleration", 6, "RAD-PER-SEC2 M-PER-SEC2", "", kJoint},
     Quantity{"floating-force", 6, "N-M N", "", kJoint},
+    // A joint between two bodies that leaves all turns free; seen from the successor.
+    Quantity{"spherical-position", 4, "UNITLESS", "", kJoint},
+    Quantity{"spherical-velocity", 3, "RAD-PER-SEC", "", kJoint},
+    Quantity{"spherical-acceleration", 3, "RAD-PER-SEC2", "", kJoint},
+    // The numbers of a joint with several degrees of freedom, or of all joints, in their order: of
+    // turns and of slides.
+    Quantity{"joint-positions", 0, "RAD M", "", kNone},
+    Quantity{"joint-velocities", 0, "RAD-PER-SEC M-PER-SEC", "", kNone},
+    Quantity{"joint-accelerations", 0, "RAD-PER-SEC2 M-PER-SEC2", "", kNone},
+    Quantity{"joint-forces", 0, "N-M N", "", kNone},
+    // How some numbers follow from others (operators_joints.cpp); belongs to what follows.
+    Quantity{"coordinate-map", 0, "UNITLESS", "", kJoint},
+    Quantity{"rotor-inertia", 1, "KiloGM-M2", "KiloGM", kNone},
+    Quantity{"cholesky-factor", 0, "UNITLESS", "", kNone},
+    Quantity{"mass-matrix-decomposition", 0, "KiloGM M-KiloGM KiloGM-M2", "", kNone},
     // Of a revolute joint: rotation, and metres for each radian; of a prismatic one the other
     // units.
     Quantity{"jacobian-column", 6, "UNITLESS M", "PER-M UNITLESS", kTwist},

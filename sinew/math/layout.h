@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "sinew/math/articulated_inertia.h"
+#include "sinew/math/compound_joint.h"
 #include "sinew/math/control.h"
 #include "sinew/math/floating.h"
 #include "sinew/math/inertia.h"
@@ -106,6 +107,16 @@ struct Layout<RigidBodyInertia<S>> {
     at[1] = I.first_moment.x, at[2] = I.first_moment.y, at[3] = I.first_moment.z;
     at[4] = I.rotational.xx, at[5] = I.rotational.xy, at[6] = I.rotational.xz;
     at[7] = I.rotational.yy, at[8] = I.rotational.yz, at[9] = I.rotational.zz;
+  }
+};
+
+// The quaternion x y z w.
+template <typename S>
+struct Layout<SphericalPosition<S>> {
+  static constexpr std::uint32_t kSize = 4;
+  static SphericalPosition<S> load(const S* at) { return {{at[0], at[1], at[2]}, at[3]}; }
+  static void store(const SphericalPosition<S>& q, S* at) {
+    at[0] = q.v.x, at[1] = q.v.y, at[2] = q.v.z, at[3] = q.w;
   }
 };
 

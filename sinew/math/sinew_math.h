@@ -184,9 +184,9 @@ void sinew_centroidal_momentum_column_prismatic(const double X[12], const double
                                                 const double c[3], double A[6]);
 void sinew_centroidal_momentum_columns_floating(const double X[12], const double I[10],
                                                 const double c[3], double A[36]);
-void sinew_momentum_matrix_from_columns(const double *const columns[], int count, double *A);
-void sinew_floating_momentum_matrix_from_columns(const double *const columns[], int count,
-                                                 double *A);
+void sinew_momentum_matrix_from_columns(const double* const columns[], int count, double* A);
+void sinew_floating_momentum_matrix_from_columns(const double* const columns[], int count,
+                                                 double* A);
 
 #ifdef __cplusplus
 }
@@ -194,5 +194,6 @@ void sinew_floating_momentum_matrix_from_columns(const double *const columns[], 
 
 #include "sinew_math_control.h"
 #include "sinew_math_relative.h"
+#include "sinew_math_joints.h"
 
 #endif

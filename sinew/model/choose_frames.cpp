@@ -60,7 +60,7 @@ class Chooser {
     for (int sweep = 0; sweep < kMaximumSweeps; ++sweep) {
       bool better = false;
       for (std::size_t body = tree_.bodies.size(); body-- > 1;) {
-        better |= improve(static_cast<std::uint32_t>(body));
+        if (!fixed_by_joint(body)) better |= improve(static_cast<std::uint32_t>(body));
       }
       if (!better) return;
     }
@@ -68,6 +68,12 @@ class Chooser {
 
  private:
   const Tree::Joint& joint_of(std::uint32_t body) const { return tree_.joints[body - 1]; }
+
+  // The velocity of a free joint has coordinates in its successor's frame.
+  bool fixed_by_joint(std::size_t body) const {
+    const int compound = tree_.joints[body - 1].compound;
+    return compound >= 0 && is_free(tree_.compounds[static_cast<std::size_t>(compound)].kind);
+  }
 
   double cost_with(std::uint32_t body, const Pose& X) const {
     const Pose back = math::invert(X);

@@ -63,7 +63,18 @@ class Ids {
      upper = iri(vocab::skc::upper), maximum = iri(vocab::skc::maximum);
   Id velocity_limit = iri(vocab::skc::JointVelocityLimit),
      force_limit = iri(vocab::skc::JointForceLimit);
-  Id mimicry = iri(vocab::skc::JointMimicry), mimics = iri(vocab::skc::mimics);
+  Id mimicry = iri(vocab::skc::JointMimicry), mimics = iri(vocab::skc::mimics),
+     multiplier = iri(vocab::skc::multiplier), mimic_offset = iri(vocab::skc::offset);
+  Id helical = iri(vocab::skc::HelicalJoint), cylindrical = iri(vocab::skc::CylindricalJoint),
+     planar = iri(vocab::skc::PlanarJoint), spherical = iri(vocab::skc::SphericalJoint),
+     floating = iri(vocab::skc::FloatingJoint), universal = iri(vocab::skc::UniversalJoint),
+     composite = iri(vocab::skc::CompositeJoint);
+  Id sequence = iri(vocab::skc::sequence), revolute_motion = iri(vocab::skc::RevoluteMotion),
+     prismatic_motion = iri(vocab::skc::PrismaticMotion);
+  Id joint_pitch = iri(vocab::skc::JointPitch), pitch = iri(vocab::skc::pitch);
+  Id transmission = iri(vocab::skc::JointTransmission), transmission_ratio = iri(vocab::skc::ratio),
+     rotor_inertia = iri(vocab::skc::rotor_inertia);
+  Id degree_of_freedom = iri(vocab::skc::degree_of_freedom);
 
   // Dynamics. The older age writes `of` for `of-body`, and the legacy metamodel puts all on one
   // node.

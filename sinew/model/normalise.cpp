@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "sinew/model/choose_frames.h"
+#include "sinew/model/compound.h"
+#include "sinew/model/couple.h"
 #include "sinew/model/inertia.h"
 #include "sinew/model/plausible.h"
 #include "sinew/model/rigid_bodies.h"
@@ -52,6 +54,71 @@ void add_body(Work& work, int rigid_body, int first_frame, const Pose& pose) {
                work.poses, work.report);
 }
 
+// A turn or a slide.
+void add_joint(Work& work, const SpanningTree::Step& step, const Structure::Joint& facts) {
+  // The child's frame is the parent's moved by the offset; the joint's is the parent's, turned.
+  const Vector3 z = step.against ? -facts.axis : facts.axis;
+  const Pose in_parent = {rotation_with_z(z), {0, 0, 0}};
+  const Pose in_child = {in_parent.R, -facts.offset * facts.axis};
+  const bool far_is_child = step.far == facts.child;
+  const Pose& in_near = far_is_child || !facts.directed ? in_parent : in_child;
+  const Pose& in_far = far_is_child || !facts.directed ? in_child : in_parent;
+
+  Tree::Joint joint;
+  joint.iri = facts.iri;
+  joint.kind = facts.kind;
+  joint.predecessor = work.tree_body[work.bodies.of_frame[step.near]];
+  joint.successor = static_cast<std::uint32_t>(work.tree.bodies.size());
+  joint.placement = math::compose(*work.poses[step.near], in_near);
+  joint.against_its_direction = step.against;
+  joint.limits = facts.limits;
+  joint.rotor_inertia = facts.rotor_inertia;
+  work.tree.joints.push_back(joint);
+  add_body(work, work.bodies.of_frame[step.far], step.far, math::invert(in_far));
+}
+
+// A joint of several motions: a joint of the tree for each, and bodies without mass between them.
+void add_compound(Work& work, const SpanningTree::Step& step, const Structure::Joint& facts) {
+  if (step.against && !commutes(facts.kind)) {
+    work.error(facts.iri, "a joint of several axes is walked from its child to its parent",
+               "name a base on its parent's side");
+  }
+  std::vector<CompoundPart> parts = parts_of(facts, step.against);
+  graph::Terms& terms = work.store.terms();
+  const Id role_part = terms.iri(vocab::tree::parts), role_body = terms.iri(vocab::tree::Body);
+  Tree::Compound compound{facts.iri, facts.kind, {}};
+  std::uint32_t predecessor = work.tree_body[work.bodies.of_frame[step.near]];
+  const auto first = static_cast<int>(work.tree.joints.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    Tree::Joint joint;
+    joint.iri = parts[k].iri
+                    ? parts[k].iri
+                    : terms.derived(role_part, {facts.iri, terms.integer(static_cast<int>(k))});
+    joint.kind = parts[k].kind;
+    joint.predecessor = predecessor;
+    joint.successor = predecessor = static_cast<std::uint32_t>(work.tree.bodies.size());
+    joint.placement =
+        k == 0 ? math::compose(*work.poses[step.near], parts[k].placement) : parts[k].placement;
+    joint.against_its_direction = step.against;
+    joint.limits = parts[k].limits;
+    joint.compound = static_cast<int>(work.tree.compounds.size());
+    if (parts[k].follows) {
+      joint.follows = first;
+      joint.ratio = parts[k].ratio;
+    } else {
+      joint.rotor_inertia = facts.rotor_inertia;
+    }
+    compound.parts.push_back(static_cast<std::uint32_t>(work.tree.joints.size()));
+    work.tree.joints.push_back(joint);
+    if (k + 1 == parts.size()) break;
+    Tree::Body between;
+    between.iri = terms.derived(role_body, {joint.iri});
+    work.tree.bodies.push_back(between);
+  }
+  work.tree.compounds.push_back(std::move(compound));
+  add_body(work, work.bodies.of_frame[step.far], step.far, math::invert(parts.back().in_far));
+}
+
 // Bodies and joints, each body's frame where the joint puts it: on the far attachment, z on the
 // axis.
 void make_bodies_and_joints(Work& work) {
@@ -68,24 +135,11 @@ void make_bodies_and_joints(Work& work) {
           "state a PoseCoordinate of it with respect to the link's root frame");
       work.poses[step.near] = identity_pose();
     }
-    // The child's frame is the parent's moved by the offset; the joint's is the parent's, turned.
-    const Vector3 z = step.against ? -facts.axis : facts.axis;
-    const Pose in_parent = {rotation_with_z(z), {0, 0, 0}};
-    const Pose in_child = {in_parent.R, -facts.offset * facts.axis};
-    const bool far_is_child = step.far == facts.child;
-    const Pose& in_near = far_is_child || !facts.directed ? in_parent : in_child;
-    const Pose& in_far = far_is_child || !facts.directed ? in_child : in_parent;
-
-    Tree::Joint joint;
-    joint.iri = facts.iri;
-    joint.kind = facts.kind;
-    joint.predecessor = work.tree_body[work.bodies.of_frame[step.near]];
-    joint.successor = static_cast<std::uint32_t>(work.tree.bodies.size());
-    joint.placement = math::compose(*work.poses[step.near], in_near);
-    joint.against_its_direction = step.against;
-    joint.limits = facts.limits;
-    work.tree.joints.push_back(joint);
-    add_body(work, work.bodies.of_frame[step.far], step.far, math::invert(in_far));
+    if (facts.motions.empty()) {
+      add_joint(work, step, facts);
+    } else {
+      add_compound(work, step, facts);
+    }
   }
 }
 
@@ -192,7 +246,7 @@ void add_inertias(Work& work) {
   std::string massless;
   for (std::size_t b = 1; b < work.tree.bodies.size(); ++b) {
     const Tree::Body& body = work.tree.bodies[b];
-    if (body.has_inertia && body.inertia.mass > 0) continue;
+    if (body.links.empty() || (body.has_inertia && body.inertia.mass > 0)) continue;
     massless += fmt::format("{}<{}>", massless.empty() ? "" : ", ", work.text(body.iri));
   }
   if (!massless.empty()) work.tree.notes.push_back("bodies without mass: " + massless);
@@ -281,6 +335,7 @@ Tree normalise(graph::Store& store, const graph::Places& places, const Normalise
                                  options.tips, report);
   if (report.has_errors()) return {};
   make_bodies_and_joints(work);
+  couple(work.structure, store.terms(), places, work.tree, report);
   make_frames_and_links(work);
   add_inertias(work);
   add_gravity(work);

@@ -73,10 +73,9 @@ void check_inertias(const Structure& structure, const graph::Terms& terms,
 
 void check_limits(const Structure& structure, const graph::Terms& terms,
                   const graph::Places& places, Report& report) {
-  for (const Structure::Joint& joint : structure.joints) {
-    const JointLimits& l = joint.limits;
+  const auto check = [&](const JointLimits& l, graph::Id of) {
     const auto fault = [&](std::string what, std::string remedy) {
-      report.error(places.find(joint.iri), std::string(terms.text(joint.iri)), std::move(what),
+      report.error(places.find(of), std::string(terms.text(of)), std::move(what),
                    std::move(remedy));
     };
     if (l.lower > l.upper) {
@@ -86,6 +85,11 @@ void check_limits(const Structure& structure, const graph::Terms& terms,
     if (l.maximum_velocity < 0 || l.maximum_force < 0) {
       fault("a velocity or force limit is negative", "give the largest size, without sign");
     }
+  };
+  for (const Structure::Joint& joint : structure.joints) {
+    check(joint.limits, joint.iri);
+    for (const Structure::Motion& motion : joint.motions)
+      check(motion.limits, motion.iri ? motion.iri : joint.iri);
   }
 }
 

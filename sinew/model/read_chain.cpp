@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "sinew/model/read_joints.h"
 #include "sinew/model/structure_reader.h"
 
 namespace sinew::model {
@@ -16,8 +17,11 @@ std::optional<JointKind> read_kind(GraphReader& reader, Id joint) {
   if (reader.is_a(joint, ids.revolute)) return JointKind::kRevolute;
   if (reader.is_a(joint, ids.prismatic)) return JointKind::kPrismatic;
   if (reader.is_a(joint, ids.fixed)) return JointKind::kFixed;
+  if (const auto kind = compound_kind(reader, joint)) return kind;
   reader.error(joint, ids.type, "nothing says how the joint moves",
-               "make it a RevoluteJoint, PrismaticJoint or FixedJoint as well");
+               "make it a RevoluteJoint, PrismaticJoint, HelicalJoint, CylindricalJoint, "
+               "PlanarJoint, UniversalJoint, SphericalJoint, FloatingJoint, CompositeJoint or "
+               "FixedJoint as well");
   return std::nullopt;
 }
 
@@ -67,7 +71,8 @@ std::optional<Vector3> line_direction(GraphReader& reader, const Structure::Fram
   return direction;
 }
 
-// The joint's axis as a unit vector, seen from both attachments alike.
+}  // namespace
+
 std::optional<Vector3> read_axis(GraphReader& reader, const Structure& structure, Id joint,
                                  const Structure::Joint& facts) {
   const Ids& ids = reader.ids;
@@ -99,6 +104,12 @@ std::optional<Vector3> read_axis(GraphReader& reader, const Structure& structure
                  "use the same axis of both attachments");
     return std::nullopt;
   }
+  if (length == 0) {
+    reader.error(*axis, ids.lines,
+                 fmt::format("the axis of <{}> has no length", reader.text(joint)),
+                 "give a unit vector: the direction about or along which the joint moves");
+    return std::nullopt;
+  }
   if (std::abs(length - 1) > 1e-3) {
     reader.error(*axis, ids.lines, fmt::format("the axis has length {}", length),
                  "give a unit vector");
@@ -114,6 +125,8 @@ std::optional<Vector3> read_axis(GraphReader& reader, const Structure& structure
   // An axis of a frame stays exactly that; others are made unit vectors.
   return (length == 1 ? sign : sign / length) * *directions[0];
 }
+
+namespace {
 
 // Which attachment is the parent: the offset is the child's origin with respect to the parent's.
 void read_direction(GraphReader& reader, const Structure& structure, Structure::Joint& joint) {
@@ -164,53 +177,6 @@ void read_offset(GraphReader& reader, const Structure& structure, Structure::Joi
   }
 }
 
-void read_limits(GraphReader& reader, Structure& structure) {
-  const Ids& ids = reader.ids;
-  std::unordered_map<Id, Structure::Joint*> by_iri;
-  for (Structure::Joint& joint : structure.joints) by_iri.emplace(joint.iri, &joint);
-  const auto each = [&](Id type, auto&& read) {
-    for (const Id node : reader.all(type)) {
-      const auto of = reader.one(node, ids.of_joint, "the joint that this is of");
-      if (!of) continue;
-      const auto found = by_iri.find(*of);
-      if (found == by_iri.end()) {
-        reader.error(node, ids.of_joint, fmt::format("<{}> is no joint", reader.text(*of)),
-                     "name a joint of these models");
-      } else {
-        read(node, *found->second);
-      }
-    }
-  };
-  const auto scaled = [&](Id node, Id property, const data::Dimension& dimension,
-                          std::string_view what, double& to) {
-    if (!reader.has(node, property)) return;
-    const auto value = reader.number(node, property);
-    const auto scale = reader.scale(node, dimension, what);
-    if (value && scale) to = *value * *scale;
-  };
-  const auto turns = [](const Structure::Joint& joint) {
-    return joint.kind != JointKind::kPrismatic;
-  };
-  each(ids.position_limits, [&](Id node, Structure::Joint& joint) {
-    const auto& dimension = turns(joint) ? dimension::kAngle : dimension::kLength;
-    scaled(node, ids.lower, dimension, "the lower limit", joint.limits.lower);
-    scaled(node, ids.upper, dimension, "the upper limit", joint.limits.upper);
-  });
-  each(ids.velocity_limit, [&](Id node, Structure::Joint& joint) {
-    scaled(node, ids.maximum, turns(joint) ? dimension::kAngularVelocity : dimension::kVelocity,
-           "the velocity limit", joint.limits.maximum_velocity);
-  });
-  each(ids.force_limit, [&](Id node, Structure::Joint& joint) {
-    scaled(node, ids.maximum, turns(joint) ? dimension::kTorque : dimension::kForce,
-           "the force limit", joint.limits.maximum_force);
-  });
-  each(ids.mimicry, [&](Id node, Structure::Joint& joint) {
-    structure.notes.push_back(
-        fmt::format("<{}> mimics <{}> by the model; here it is a joint of its own",
-                    reader.text(joint.iri), reader.text(reader.view.object(node, ids.mimics))));
-  });
-}
-
 }  // namespace
 
 void read_joints(GraphReader& reader, Structure& structure) {
@@ -223,15 +189,16 @@ void read_joints(GraphReader& reader, Structure& structure) {
     joint.kind = *kind;
     std::tie(joint.parent, joint.child) = *attachments;
     read_direction(reader, structure, joint);
-    if (joint.kind != JointKind::kFixed) {
+    if (has_axis(joint.kind)) {
       const auto axis = read_axis(reader, structure, node, joint);
       if (!axis) continue;
       joint.axis = *axis;
     }
+    if (!read_motions(reader, structure, joint)) continue;
     read_offset(reader, structure, joint);
     structure.joints.push_back(joint);
   }
-  read_limits(reader, structure);
+  read_joint_properties(reader, structure);
 }
 
 }  // namespace sinew::model

@@ -3,6 +3,7 @@
 // metamodels ask is reported with its place.
 #pragma once
 
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -48,6 +49,24 @@ struct Structure {
     Vector3 position;
   };
 
+  // One turn or slide of a joint that is a sequence of them.
+  struct Motion {
+    Id iri;  // where the model has a node for it
+    JointKind kind = JointKind::kRevolute;
+    Vector3 axis;          // unit vector, in both attachments at position zero
+    bool follows = false;  // the motion before it, `ratio` times
+    double ratio = 1;      // m/rad
+    JointLimits limits;
+  };
+
+  // That a joint's position is `multiplier` times that of another, plus `offset`.
+  struct Mimicry {
+    Id node;
+    Id leader;
+    double multiplier = 1;
+    double offset = 0;  // rad or m
+  };
+
   struct Joint {
     Id iri;
     JointKind kind = JointKind::kRevolute;
@@ -56,6 +75,9 @@ struct Structure {
     Vector3 axis;       // unit vector, the way in which the position grows; the same in both frames
     double offset = 0;  // of the child's origin along the axis at joint position zero
     JointLimits limits;
+    std::vector<Motion> motions;  // of a compound joint; empty for others
+    std::optional<Mimicry> mimicry;
+    double rotor_inertia = 0;  // reflected to the joint [kg m^2 or kg]
   };
 
   struct Inertia {

@@ -26,7 +26,25 @@ using Pose = math::Pose<double>;
 using RigidBodyInertia = math::RigidBodyInertia<double>;
 using AccelerationTwist = math::AccelerationTwist<double>;
 
-enum class JointKind : std::uint8_t { kFixed, kRevolute, kPrismatic };
+// The first three are what a tree's joints are made of. The others are compounds: a tree has a
+// sequence of turns and slides for each, with bodies that weigh nothing between them.
+enum class JointKind : std::uint8_t {
+  kFixed,
+  kRevolute,
+  kPrismatic,
+  kHelical,      // a turn, and a slide that follows it
+  kCylindrical,  // a turn and a slide, about and along one axis
+  kPlanar,       // two slides and a turn about their normal
+  kUniversal,    // two turns
+  kComposite,    // as its sequence says
+  kSpherical,    // a quaternion; three turns about the successor's x, y, z
+  kFloating,     // a position and a quaternion; three turns and three slides likewise
+};
+
+// Whether its velocities are about (along) axes of the successor, wherever it has turned.
+constexpr bool is_free(JointKind kind) {
+  return kind == JointKind::kSpherical || kind == JointKind::kFloating;
+}
 
 // Not a number means: not stated.
 struct JointLimits {
@@ -56,6 +74,23 @@ struct Tree {
     Pose placement;                                // pose of F_J in the predecessor's frame
     bool against_its_direction = false;            // walked from the model's child to its parent
     JointLimits limits;
+
+    int compound = -1;  // that it is a part of
+    // Its position is `ratio` times that of another joint (in SI units) plus `offset`; -1: it is
+    // free.
+    int follows = -1;
+    double ratio = 1, offset = 0;
+    // What the joint feels of a rotor behind a gear [kg m^2, or kg of a slide].
+    double rotor_inertia = 0;
+  };
+
+  // A joint of the model that is a sequence of the tree's joints. The model's numbers of it
+  // (positions, velocities, …) are those of the parts that follow nothing, in this order; only the
+  // position of a spherical or floating joint is not the parts'.
+  struct Compound {
+    Id iri;
+    JointKind kind = JointKind::kComposite;
+    std::vector<std::uint32_t> parts;  // joints
   };
 
   // A frame of the model, or the frame of a link.
@@ -73,6 +108,7 @@ struct Tree {
 
   std::vector<Body> bodies;
   std::vector<Joint> joints;
+  std::vector<Compound> compounds;
   std::vector<Frame> frames;  // in order of appearance
   std::vector<Link> links;    // in order of appearance
 

@@ -260,6 +260,13 @@ class Importer {
       case urdf::JointType::kFixed:
         type(subject, {vocab::skc::FixedJoint});
         return;
+      case urdf::JointType::kFloating:
+        type(subject, {vocab::skc::FloatingJoint});
+        return;
+      case urdf::JointType::kPlanar:
+        type(subject, {vocab::skc::PlanarJoint});
+        write_axis(joint, subject, parent_frame, parent_origin, child_frame, child_origin);
+        return;
       case urdf::JointType::kPrismatic:
         type(subject,
              {vocab::skc::PrismaticJoint, vocab::skc::PrismaticJointWithOrientedAxisOfTranslation});

@@ -324,21 +324,25 @@ class Reader {
     if (type == "revolute") return JointType::kRevolute;
     if (type == "continuous") return JointType::kContinuous;
     if (type == "prismatic") return JointType::kPrismatic;
-    if (type == "floating") {
-      error(element, "a floating joint is not supported",
-            "remove it and its parent, and ask for a floating base");
-    } else if (type == "planar") {
-      error(element, "a planar joint is not supported",
-            "write two prismatic joints and a revolute one");
-    } else {
-      error(element, fmt::format("'{}' is no type of joint", type),
-            "write revolute, continuous, prismatic or fixed");
-    }
+    if (type == "planar") return JointType::kPlanar;
+    if (type == "floating") return JointType::kFloating;
+    error(element, fmt::format("'{}' is no type of joint", type),
+          "write revolute, continuous, prismatic, planar, floating or fixed");
     return JointType::kFixed;
   }
 
   void check_motion(const Element* element, const Element* axis, const Joint& joint) {
     if (joint.type == JointType::kFixed) return;
+    const bool several = joint.type == JointType::kPlanar || joint.type == JointType::kFloating;
+    if (several && joint.mimic) {
+      error(element, "a joint of several degrees of freedom mimics another",
+            "let only revolute, continuous and prismatic joints do so");
+    }
+    if (several && (joint.limit || joint.dynamics.damping || joint.dynamics.friction)) {
+      warning(element, "the limits and friction of a planar or floating joint are left out",
+              "URDF does not say of which of its degrees of freedom they are");
+    }
+    if (joint.type == JointType::kFloating) return;
     const auto& a = joint.axis;
     if (a[0] * a[0] + a[1] * a[1] + a[2] * a[2] == 0) {
       error(axis ? axis : element, "the joint's axis is zero", "give it a direction");

@@ -64,7 +64,7 @@ struct Link {
   std::vector<Shape> shapes;
 };
 
-enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic };
+enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating };
 
 struct Limit {
   std::optional<double> lower, upper, effort, velocity;
@@ -85,7 +85,7 @@ struct Joint {
   JointType type = JointType::kFixed;
   std::string parent, child;  // links
   Origin origin;
-  Numbers3 axis = {1, 0, 0};  // as written, not made a unit vector
+  Numbers3 axis = {1, 0, 0};  // as written, not made a unit vector; of a planar joint the normal
   std::optional<Limit> limit;
   Dynamics dynamics;
   std::optional<Mimic> mimic;

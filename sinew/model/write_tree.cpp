@@ -24,6 +24,7 @@ class Writer {
   void write() {
     write_bodies();
     write_joints();
+    write_compounds();
     write_frames();
     const Id A = coordinate(t::base_acceleration, tree_.bodies[0].frame, tree_.base_acceleration,
                             {"RAD-PER-SEC2", "M-PER-SEC2"});
@@ -89,7 +90,53 @@ class Writer {
       limit(joint.iri, t::upper, joint.limits.upper);
       limit(joint.iri, t::maximum_velocity, joint.limits.maximum_velocity);
       limit(joint.iri, t::maximum_force, joint.limits.maximum_force);
+      if (joint.follows >= 0) {
+        add(joint.iri, id(t::follows), tree_.joints[static_cast<std::size_t>(joint.follows)].iri);
+        add(joint.iri, id(t::ratio), terms_.real(joint.ratio));
+        add(joint.iri, id(t::offset), terms_.real(joint.offset));
+      }
+      if (joint.rotor_inertia != 0)
+        add(joint.iri, id(t::rotor_inertia), terms_.real(joint.rotor_inertia));
     }
+  }
+
+  void write_compounds() {
+    for (const Tree::Compound& compound : tree_.compounds) {
+      type(compound.iri, t::Compound);
+      type(compound.iri, type_of(compound.kind));
+      Id rest = nil_;
+      for (std::size_t k = compound.parts.size(); k-- > 0;) {
+        const Id part = tree_.joints[compound.parts[k]].iri, cell = terms_.fresh_blank();
+        add(part, id(t::part_of), compound.iri);
+        add(cell, first_, part);
+        add(cell, rest_, rest);
+        rest = cell;
+      }
+      add(compound.iri, id(t::parts), rest);
+    }
+  }
+
+  static std::string_view type_of(JointKind kind) {
+    switch (kind) {
+      case JointKind::kHelical:
+        return t::Helical;
+      case JointKind::kCylindrical:
+        return t::Cylindrical;
+      case JointKind::kPlanar:
+        return t::Planar;
+      case JointKind::kUniversal:
+        return t::Universal;
+      case JointKind::kSpherical:
+        return t::Spherical;
+      case JointKind::kFloating:
+        return t::Floating;
+      case JointKind::kComposite:
+      case JointKind::kFixed:
+      case JointKind::kRevolute:
+      case JointKind::kPrismatic:
+        break;
+    }
+    return t::Composite;
   }
 
   void limit(Id joint, std::string_view property, double value) {

@@ -13,6 +13,7 @@
 #include "sinew/program/kernel_row.h"
 #include "sinew/program/kernels_constraints.h"
 #include "sinew/program/kernels_control.h"
+#include "sinew/program/kernels_joints.h"
 #include "sinew/program/kernels_many.h"
 #include "sinew/program/kernels_relative.h"
 
@@ -261,6 +262,7 @@ std::vector<Kernel> make_kernels() {
   };
   for (const Kernel& kernel : kernels_of_control()) rows.push_back(kernel);
   for (const Kernel& kernel : kernels_of_relative_motion()) rows.push_back(kernel);
+  for (const Kernel& kernel : kernels_of_joints()) rows.push_back(kernel);
   for (const Kernel& kernel : kernels_of_many()) rows.push_back(kernel);
   for (const Kernel& kernel : constraint_kernels()) rows.push_back(kernel);
   std::sort(rows.begin(), rows.end(),

@@ -23,6 +23,7 @@ constexpr AskedQuantity kAsked[] = {
     {"joint-acceleration", Element::kJoint, "acceleration", "acceleration", true, true},
     {"mass-matrix", Element::kRobot, "mass-matrix", "mass-matrix", true, true},
     {"jacobian", Element::kFrame, "jacobian", "jacobian", true, false, "jacobian-between"},
+    {"cholesky-factor", Element::kRobot, "cholesky-factor", "cholesky-factor", true, true},
     {"center-of-mass", Element::kRobot, "center-of-mass", "center-of-mass", false, true},
     {"center-of-mass-velocity", Element::kRobot, "center-of-mass-velocity",
      "center-of-mass-velocity", false, true},

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "sinew/synthesis/free_joint.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/relation.h"
 
@@ -174,7 +175,7 @@ BlockIndex Between::twist(Id wrt, Id of) {
 BlockIndex Between::relative_acceleration(Motion motion, const RobotJoint& joint) {
   if (motion == Motion::kFull) return context_.block("relative-acceleration", joint.joint);
   const std::string_view quantity = "acceleration-twist";
-  if (joint.kind != "floating")
+  if (!floats_freely(context_, joint))
     return make("no-acceleration-across", joint.joint_frame, joint.frame, quantity, joint.successor,
                 joint.predecessor, kZero);
   const std::string label = joint.label + ".alone";

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sinew/synthesis/asked.h"
+#include "sinew/synthesis/coordinates.h"
 #include "sinew/synthesis/joint_edge.h"
 
 namespace sinew::synthesis {
@@ -44,15 +45,6 @@ void check(const Query& query, Report& report) {
                  "both the force and the acceleration of every joint are given: they contradict "
                  "each other",
                  "give one of them; the other can be asked");
-}
-
-void make_joint_inputs(Context& context, const GivenQuantity& row) {
-  for (const RobotJoint& joint : context.robot.joints) {
-    if (!context.scope.empty() && !context.scope.contains(joint.frame)) continue;
-    algorithm::BlockSpec spec = joint_quantity(row.slot, joint);
-    spec.role = Role::kInput;
-    context.make(spec);
-  }
 }
 
 // Seen from an observer in free fall, a root at rest accelerates against gravity.
@@ -136,7 +128,7 @@ void make_drivers(Context& context, Report& report) {
   for (const GivenQuantity& row : given_quantities()) {
     if (!gives(context.query, row.name)) continue;
     if (row.element == Element::kJoint)
-      make_joint_inputs(context, row);
+      make_coordinate_inputs(context, row.slot);
     else if (row.element == Element::kFrame)
       make_wrenches(context);
     else if (gravity_varies(context.query))

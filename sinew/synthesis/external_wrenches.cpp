@@ -51,8 +51,9 @@ std::vector<ExternalWrench> external_wrenches(graph::Store& store, const graph::
                    "let it be seen by itself (the frame on which it acts) or by the base");
     if (given.of == kEveryLink) {
       for (const RobotJoint& joint : robot.joints)
-        add(link_frame(view, joint), given,
-            std::string(algorithm::short_name(view.terms().text(joint.successor))));
+        if (robot.leads_to_link(joint))
+          add(link_frame(view, joint), given,
+              std::string(algorithm::short_name(view.terms().text(joint.successor))));
       continue;
     }
     if (given.of.empty()) {

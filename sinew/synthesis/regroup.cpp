@@ -4,6 +4,7 @@
 
 #include "sinew/math/inertia.h"
 #include "sinew/math/layout.h"
+#include "sinew/synthesis/free_joint.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -65,7 +66,7 @@ void regroup(const Context& context, Inertias& inertias) {
   const auto& joints = context.robot.joints;
   for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
     const auto found = inertias.find(joint->successor);
-    if (found == inertias.end()) continue;
+    if (found == inertias.end() || free_part(context, joint->joint).whole != nullptr) continue;
     const Inertia moved = indifferent_part(InertiaLayout::load(found->second.data()), joint->kind);
     add(inertias, joint->successor, minus(moved));
     add(inertias, joint->predecessor,

@@ -54,7 +54,71 @@ void read_root(graph::Store& store, const View& view, Robot& robot) {
   if (property) robot.base_acceleration = view.object(robot.root_frame, property);
 }
 
+Id property(const View& view, std::string_view name) {
+  return view.terms().find_iri("https://w3id.org/sinew/kinematic-tree#" + std::string(name));
+}
+
+// "Spherical" as "spherical"
+std::string lower_case(std::string_view name) {
+  std::string text(name);
+  text.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(text.front())));
+  return text;
+}
+
+// Which joints follow others, and which carry rotors.
+void read_couplings(const View& view, Robot& robot) {
+  const Id follows = property(view, "follows"), ratio = property(view, "ratio"),
+           offset = property(view, "offset"), rotor = property(view, "rotor-inertia");
+  const auto number = [&](Id subject, Id predicate, double other) {
+    const Id value = predicate ? view.object(subject, predicate) : Id{};
+    return value ? view.terms().number(value).value() : other;
+  };
+  for (RobotJoint& joint : robot.joints) {
+    joint.rotor_inertia = number(joint.joint, rotor, 0);
+    const Id leader = follows ? view.object(joint.joint, follows) : Id{};
+    if (!leader) continue;
+    for (std::size_t k = 0; k < robot.joints.size(); ++k)
+      if (robot.joints[k].joint == leader) joint.follows = static_cast<int>(k);
+    joint.ratio = number(joint.joint, ratio, 1);
+    joint.offset = number(joint.joint, offset, 0);
+  }
+}
+
+// Joints of the model that are sequences; their parts are called by the joint's name and a number.
+void read_compounds(graph::Store& store, const View& view, Robot& robot) {
+  const auto rows = select(store, view, R"(
+    SELECT ?part ?compound ?kind WHERE {
+      ?part tree:part-of ?compound . ?compound a ?kind . FILTER (?kind != tree:Compound)
+    })");
+  for (std::size_t k = 0; k < robot.joints.size(); ++k) {
+    RobotJoint& joint = robot.joints[k];
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& one) {
+      return one[0] == joint.joint &&
+             view.terms().text(one[2]).starts_with("https://w3id.org/sinew/kinematic-tree#");
+    });
+    if (row == rows.end()) continue;
+    const Id whole = (*row)[1];
+    if (robot.compounds.empty() || robot.compounds.back().joint != whole)
+      robot.compounds.push_back({whole, lower_case(short_name(view.terms().text((*row)[2]))), {}});
+    RobotCompound& compound = robot.compounds.back();
+    joint.compound = static_cast<int>(robot.compounds.size()) - 1;
+    joint.label = fmt::format("{}-{}", short_name(view.terms().text(whole)), compound.parts.size());
+    compound.parts.push_back(k);
+  }
+}
+
 }  // namespace
+
+bool Robot::coupled() const {
+  return std::any_of(joints.begin(), joints.end(),
+                     [](const RobotJoint& joint) { return joint.follows >= 0; });
+}
+
+bool Robot::leads_to_link(const RobotJoint& joint) const {
+  return joint.compound < 0 ||
+         joints[compounds[static_cast<std::size_t>(joint.compound)].parts.back()].joint ==
+             joint.joint;
+}
 
 Robot read_robot(graph::Store& store, const View& view) {
   Robot robot;
@@ -71,10 +135,11 @@ Robot read_robot(graph::Store& store, const View& view) {
   std::sort(rows.begin(), rows.end(),
             [&](const Row& a, const Row& b) { return index(a) < index(b); });
   for (const Row& row : rows) {
-    std::string kind(short_name(view.terms().text(row[2])));
-    kind.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(kind.front())));
+    const std::string kind = lower_case(short_name(view.terms().text(row[2])));
     robot.joints.push_back({row[1], kind, row[3], row[4], row[5], row[6], row[7]});
   }
+  read_couplings(view, robot);
+  read_compounds(store, view, robot);
   return robot;
 }
 

@@ -21,12 +21,33 @@ struct RobotJoint {
   Id predecessor, successor;  // bodies
   Id parent_frame;            // the predecessor's frame
   std::string label = {};     // names its data blocks; empty: its own name does
+  int compound = -1;          // index into Robot::compounds, of which it is a part
+  // Its position is `ratio` times that of another joint plus `offset`; -1: it is free.
+  int follows = -1;
+  double ratio = 1, offset = 0;
+  double rotor_inertia = 0;  // of a rotor behind a gear, as the joint feels it
+};
+
+// A joint of the model that the tree has several joints for.
+struct RobotCompound {
+  Id joint;
+  std::string kind;                // "spherical", "planar", ...
+  std::vector<std::size_t> parts;  // indices into Robot::joints
+
+  // Whether its velocities are about (along) axes of the successor: spherical, floating.
+  bool is_free() const { return kind == "spherical" || kind == "floating"; }
 };
 
 struct Robot {
   Id root_frame, root_body;        // of a floating robot: the world's
   Id base_acceleration;            // coordinate node; null when the model states no gravity
   std::vector<RobotJoint> joints;  // by tree:index
+  std::vector<RobotCompound> compounds = {};
+
+  // Whether some joint follows another, so that there are fewer coordinates than joints.
+  bool coupled() const;
+  // False where the joint's successor only stands between the parts of a compound.
+  bool leads_to_link(const RobotJoint& joint) const;
 };
 
 // Reads the normalised tree; Error when there is none, or more than one root.

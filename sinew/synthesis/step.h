@@ -61,6 +61,8 @@ struct Step {
   // Slots of the blackboard. What a step may use, it gets if it is given or made for somebody else.
   std::vector<std::string> needs, may_use, gives;
   std::vector<Visitor> visitors;
+  // Whether every joint must move by itself: no joint follows another.
+  bool takes_joints_one_by_one = false;
 };
 
 // Every step that comes with Sinew, in an order in which those that give come before those that

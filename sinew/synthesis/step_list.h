@@ -62,6 +62,11 @@ Step centroidal_momentum_matrix_step();
 Step kinetic_energy_step();
 Step potential_energy_step();
 
+// steps_factors.cpp
+Step cholesky_step();
+Step mass_matrix_decomposition_step();
+Step forward_dynamics_by_decomposition_step();
+
 // steps_jacobian.cpp
 Step jacobian_step();
 

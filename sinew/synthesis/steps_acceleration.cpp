@@ -1,5 +1,6 @@
 // Acceleration twists, classical, each body's absolute and seen from the body's own frame. Gravity
 // is an acceleration of the root: all is seen from an observer in free fall.
+#include "sinew/synthesis/free_joint.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/motion.h"
 #include "sinew/synthesis/step_list.h"
@@ -13,21 +14,32 @@ constexpr double kZero[6] = {};
 
 void configure_relative(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
-  context.make({.slot = "relative-acceleration",
-                .represents = edge.joint,
-                .quantity = "acceleration-twist",
-                .of = edge.successor,
-                .wrt = edge.predecessor,
-                .reference = edge.child,
-                .seen_by = edge.child});
+  algorithm::BlockSpec spec = {.slot = "relative-acceleration",
+                               .represents = edge.joint,
+                               .quantity = "acceleration-twist",
+                               .of = edge.successor,
+                               .wrt = edge.predecessor,
+                               .reference = edge.child,
+                               .seen_by = edge.child};
+  const FreePart part = free_part(context, edge.joint);
+  if (part.whole != nullptr && !part.last) {
+    spec.role = Role::kConstant;
+    spec.value = kZero;
+  }
+  context.make(spec);
 }
 
 void compute_relative(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
-  const BlockIndex given = context.block("acceleration", edge.joint);
+  const FreePart part = free_part(context, edge.joint);
+  if (part.whole != nullptr && !part.last) return;
+  const BlockIndex given = part.whole != nullptr ? whole_acceleration(context, *part.whole)
+                                                 : context.block("acceleration", edge.joint);
   const BlockIndex relative = context.block("relative-acceleration", edge.joint);
-  const std::string operation = "acceleration-to-twist-" + edge.kind;
-  if (edge.floats())
+  const bool floats = floats_freely(context, edge);
+  const std::string operation =
+      "acceleration-to-twist-" + (part.whole != nullptr ? part.whole->kind : edge.kind);
+  if (floats)
     context.closure(operation, {given, context.block("relative-twist", edge.joint), relative},
                     edge.joint);
   else
@@ -66,8 +78,10 @@ void configure_body(Motion motion, Context& context, const Visit& visit) {
   acceleration("acceleration-across-joint", edge.joint, edge.predecessor, edge.child);
   acceleration("body-acceleration", edge.child, edge.successor, edge.child);
   if (motion == Motion::kFull) return;
-  if (edge.floats() && motion == Motion::kBias) {
+  if (floats_freely(context, edge) && motion == Motion::kBias) {
     algorithm::BlockSpec still = edge.coordinate("no-acceleration", "acceleration");
+    still.quantity = "floating-acceleration";
+    still.prismatic = false;
     still.role = Role::kConstant;
     still.value = kZero;
     context.make(still);
@@ -95,7 +109,7 @@ void configure_body(Motion motion, Context& context, const Visit& visit) {
 // do not change, its origin may still accelerate.
 BlockIndex relative_acceleration(Motion motion, Context& context, const JointEdge& edge) {
   if (motion == Motion::kFull) return context.block("relative-acceleration", edge.joint);
-  if (motion == Motion::kRest || !edge.floats())
+  if (motion == Motion::kRest || !floats_freely(context, edge))
     return context.block("no-relative-acceleration", edge.joint);
   const BlockIndex bias = context.block("bias-relative-acceleration", edge.joint);
   context.closure("acceleration-to-twist-floating",

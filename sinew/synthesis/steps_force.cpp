@@ -3,6 +3,7 @@
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/motion.h"
 #include "sinew/synthesis/needed_wrench.h"
+#include "sinew/synthesis/rotor.h"
 #include "sinew/synthesis/step_list.h"
 
 namespace sinew::synthesis {
@@ -139,7 +140,9 @@ void configure_force(Motion motion, Context& context, const Visit& visit) {
     if (i > 0) spec.represents = pairs[i];
     context.make(spec);
   }
-  context.make(edge.coordinate(slot_of(motion, "force"), "force"));
+  const std::string slot = slot_of(motion, "force");
+  context.make(edge.coordinate(slot, "force"));
+  if (motion == Motion::kFull) make_rotor(context, edge, pairs.empty() ? slot : "force-so-far");
 }
 
 void compute_force(Motion motion, Context& context, const Visit& visit) {
@@ -147,8 +150,12 @@ void compute_force(Motion motion, Context& context, const Visit& visit) {
   const std::vector<Id> pairs = shares(motion, context, edge);
   const BlockIndex force = context.block(slot_of(motion, "force"), edge.joint);
   BlockIndex sum = pairs.empty() ? force : context.block("force-so-far", edge.joint);
-  context.closure("force-from-wrench-" + edge.kind,
-                  {needed_wrench_so_far(motion, context, edge.child), sum}, edge.joint);
+  const BlockIndex wrench = needed_wrench_so_far(motion, context, edge.child);
+  if (motion == Motion::kFull && has_rotor(context, edge.joint))
+    compute_with_rotor(context, edge, "force-with-rotor", wrench,
+                       {context.block("acceleration", edge.joint)}, sum);
+  else
+    context.closure("force-from-wrench-" + edge.kind, {wrench, sum}, edge.joint);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const BlockIndex next =
         i + 1 < pairs.size() ? context.block("force-so-far", pairs[i + 1]) : force;

@@ -4,6 +4,7 @@
 // parts.
 #include "sinew/base/error.h"
 #include "sinew/synthesis/joint_edge.h"
+#include "sinew/synthesis/rotor.h"
 #include "sinew/synthesis/step_list.h"
 
 namespace sinew::synthesis {
@@ -67,16 +68,17 @@ void configure_inertia(Context& context, const Visit& visit) {
   if (edge.floats()) return;  // six columns at once: see compute_result
   context.make(at("unit-wrench", "wrench", edge.joint, edge.successor, edge.child));
   context.make(edge.coordinate("unit-force", "force"));
+  make_rotor(context, edge, "unit-force");
 }
 
 void compute_inertia(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   if (edge.floats()) return;
   const BlockIndex unit = context.block("unit-wrench", edge.joint);
+  const BlockIndex force = context.block("unit-force", edge.joint);
   context.closure("wrench-of-" + edge.kind + "-from-articulated-body-inertia",
                   {inertia_so_far(context, edge.child), unit}, edge.joint);
-  context.closure("force-from-wrench-" + edge.kind, {unit, context.block("unit-force", edge.joint)},
-                  edge.joint);
+  compute_with_rotor(context, edge, "unit-force-with-rotor", unit, {}, force);
 }
 
 void configure_handing_on(Context& context, const Visit& visit) {
@@ -280,7 +282,8 @@ Step articulated_inertia_step() {
                         {std::string(kParentIsNotRoot)},
                         {},
                         configure_handing_on,
-                        compute_handing_on}}};
+                        compute_handing_on}},
+          .takes_joints_one_by_one = true};
 }
 
 Step drive_step() {

@@ -1,4 +1,5 @@
 // Poses: across each joint, and of each body's frame with respect to the root.
+#include "sinew/synthesis/free_joint.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/step_list.h"
 
@@ -6,6 +7,8 @@ namespace sinew::synthesis {
 namespace {
 
 using algorithm::Role;
+
+constexpr double kIdentity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
 void configure_joint(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
@@ -16,15 +19,30 @@ void configure_joint(Context& context, const Visit& visit) {
                 .wrt = edge.parent,
                 .role = Role::kConstant,
                 .value = context.numbers(edge.placement)});
-  context.make({.slot = "pose-across-joint",
-                .represents = edge.joint,
-                .quantity = "pose",
-                .of = edge.child,
-                .wrt = edge.joint_frame});
+  algorithm::BlockSpec across = {.slot = "pose-across-joint",
+                                 .represents = edge.joint,
+                                 .quantity = "pose",
+                                 .of = edge.child,
+                                 .wrt = edge.joint_frame};
+  const FreePart part = free_part(context, edge.joint);
+  if (part.whole != nullptr && !part.first) {
+    across.role = Role::kConstant;
+    across.value = kIdentity;
+  }
+  context.make(across);
 }
 
 void compute_joint(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
+  if (const FreePart part = free_part(context, edge.joint); part.whole != nullptr) {
+    if (part.first)
+      context.closure(
+          part.whole->kind == "spherical" ? "position-to-pose-spherical" : "position-to-pose-free",
+          {context.block("position", part.whole->joint),
+           context.block("pose-across-joint", edge.joint)},
+          edge.joint);
+    return;
+  }
   context.closure(
       "position-to-pose-" + edge.kind,
       {context.block("position", edge.joint), context.block("pose-across-joint", edge.joint)},
@@ -75,7 +93,6 @@ void compute_later(Context& context, const Visit& visit) {
 }
 
 void configure_root(Context& context, const Visit& visit) {
-  static constexpr double kIdentity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
   context.make({.slot = "pose",
                 .represents = visit.node,
                 .quantity = "pose",

@@ -1,6 +1,7 @@
 // Velocity twists. Each body's is absolute (with respect to the context's reference) and seen from
 // the body's own frame. The fixed placement of a joint and its motion are transforms of their own:
 // the first has constant coefficients, the second one or two that vary.
+#include "sinew/synthesis/free_joint.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/step_list.h"
 
@@ -14,17 +15,31 @@ constexpr double kZero[6] = {};
 
 void configure_relative(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
-  context.make({.slot = "relative-twist",
-                .represents = edge.joint,
-                .quantity = "velocity-twist",
-                .of = edge.successor,
-                .wrt = edge.predecessor,
-                .reference = edge.child,
-                .seen_by = edge.child});
+  BlockSpec spec = {.slot = "relative-twist",
+                    .represents = edge.joint,
+                    .quantity = "velocity-twist",
+                    .of = edge.successor,
+                    .wrt = edge.predecessor,
+                    .reference = edge.child,
+                    .seen_by = edge.child};
+  const FreePart part = free_part(context, edge.joint);
+  if (part.whole != nullptr && !part.last) {
+    spec.role = Role::kConstant;
+    spec.value = kZero;
+  }
+  context.make(spec);
 }
 
 void compute_relative(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
+  if (const FreePart part = free_part(context, edge.joint); part.whole != nullptr) {
+    if (part.last)
+      context.closure("velocity-to-twist-" + part.whole->kind,
+                      {context.block("velocity", part.whole->joint),
+                       context.block("relative-twist", edge.joint)},
+                      edge.joint);
+    return;
+  }
   context.closure(
       "velocity-to-twist-" + edge.kind,
       {context.block("velocity", edge.joint), context.block("relative-twist", edge.joint)},

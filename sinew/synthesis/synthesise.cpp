@@ -10,6 +10,7 @@
 #include "sinew/synthesis/asked.h"
 #include "sinew/synthesis/context.h"
 #include "sinew/synthesis/control.h"
+#include "sinew/synthesis/coordinates.h"
 #include "sinew/synthesis/drivers.h"
 #include "sinew/synthesis/external_wrenches.h"
 #include "sinew/synthesis/floating_base.h"
@@ -40,19 +41,6 @@ struct Resolved {
 
 std::string text(const graph::View& view, Id id) { return std::string(view.terms().text(id)); }
 
-const RobotJoint& find_joint(const graph::View& view, const Robot& robot, std::string_view name) {
-  for (const RobotJoint& joint : robot.joints) {
-    const std::string_view iri = view.terms().text(joint.joint);
-    if (iri == name || algorithm::short_name(iri) == name) return joint;
-  }
-  std::string known;
-  for (const RobotJoint& joint : robot.joints)
-    known += (known.empty() ? "" : ", ") +
-             std::string(algorithm::short_name(view.terms().text(joint.joint)));
-  throw Error(
-      Problem{{}, std::string(name), "no moving joint has this name", "one of " + known, {}, {}});
-}
-
 std::vector<Id> tips(graph::Store& store, const graph::View& view, const Robot& robot,
                      const Query& query) {
   if (query.tips.empty()) return leaf_frames(store, view, robot);
@@ -79,8 +67,12 @@ std::vector<Id> elements(graph::Store& store, const graph::View& view, const Rob
       return found;
     case Element::kJoint:
       if (!asked.of.empty() && asked.of != kEveryJoint)
-        return {find_joint(view, robot, asked.of).joint};
-      for (const RobotJoint& joint : robot.joints) found.push_back(joint.joint);
+        return {find_coordinate(view, robot, asked.of).joint};
+      for (const Coordinate& coordinate : coordinates(robot)) found.push_back(coordinate.joint);
+      // A joint that follows another has no numbers of its own, but a bearing.
+      if (asked.quantity == "joint-wrench")
+        for (const RobotJoint& joint : robot.joints)
+          if (joint.follows >= 0 && joint.compound < 0) found.push_back(joint.joint);
       return found;
   }
   return found;
@@ -98,11 +90,16 @@ std::vector<Id> shares(graph::Store& store, const graph::View& view, const Robot
                         {},
                         {}});
   std::vector<Id> pairs;
-  for (const RobotJoint& joint : robot.joints)
-    for (const ExternalWrench& one : wrenches)
-      for (const std::size_t on_the_way : path_to(robot, view, one.frame))
-        if (robot.joints[on_the_way].joint == joint.joint)
-          pairs.push_back(pair_of(store.terms(), joint.joint, one.frame));
+  for (const Coordinate& coordinate : coordinates(robot))
+    for (const std::size_t part : coordinate.parts)
+      for (const ExternalWrench& one : wrenches) {
+        // A wrench reaches a joint on its way, and by way of those that follow it.
+        const auto way = path_to(robot, view, one.frame);
+        const bool reaches = std::any_of(way.begin(), way.end(), [&](std::size_t at) {
+          return at == part || robot.joints[at].follows == static_cast<int>(part);
+        });
+        if (reaches) pairs.push_back(pair_of(store.terms(), robot.joints[part].joint, one.frame));
+      }
   return pairs;
 }
 
@@ -224,10 +221,30 @@ void set_scope(Context& context, const Resolved& resolved) {
         context.scope.insert(context.robot.joints[joint].frame);
 }
 
+// The steps that a robot can have in which joints follow others.
+std::vector<Step> of_coupled_joints(std::span<const Step> all) {
+  std::vector<Step> some;
+  for (const Step& step : all)
+    if (!step.takes_joints_one_by_one) some.push_back(step);
+  return some;
+}
+
 // The planner's sweeps, or those that somebody wrote.
-Plan plan_of(const Query& query, const Resolved& resolved, std::span<const Step> steps,
+Plan plan_of(const Query& query, const Robot& robot, const Resolved& resolved,
+             std::span<const Step> all, std::span<const Step> usable,
              std::span<const std::string> given, Report& report) {
-  if (query.sweeps.empty()) return make_plan(steps, resolved.wishes, given, report);
+  if (query.sweeps.empty()) {
+    Report found, otherwise;
+    Plan plan = make_plan(usable, resolved.wishes, given, found);
+    if (found.has_errors() && robot.coupled()) make_plan(all, resolved.wishes, given, otherwise);
+    if (found.has_errors() && robot.coupled() && !otherwise.has_errors())
+      report.error({}, query.name,
+                   "what is asked takes joints one by one, but in this robot some follow others",
+                   "choose a base and tips between which no joint follows another");
+    else
+      for (const Problem& problem : found.problems()) report.add(problem);
+    return plan;
+  }
   const SweepConfiguration configuration = named_sweeps(query.sweeps);
   Plan plan;
   for (const SweepNames& names : configuration.sweeps) {
@@ -245,14 +262,22 @@ Plan plan_of(const Query& query, const Resolved& resolved, std::span<const Step>
     plan.sweeps.push_back(std::move(sweep));
   }
   check_sweeps(plan.sweeps, given, configuration.iri, report);
+  for (const Sweep& sweep : plan.sweeps)
+    for (const Step* step : sweep.steps)
+      if (step->takes_joints_one_by_one && robot.coupled())
+        report.error({}, configuration.iri,
+                     fmt::format("step {} takes joints one by one, but in this robot some follow "
+                                 "others",
+                                 step->name),
+                     "leave the sweeps to the planner");
   return plan;
 }
 
 void hand_out(Context& context, const Resolved& resolved) {
   for (const Wanted& wanted : resolved.wanted) {
     if (!wanted.output) continue;
-    context.builder.output(
-        context.block(wanted.quantity->slot, wanted.element),
+    hand_out(
+        context, wanted.quantity->slot, wanted.element,
         wanted.quantity->element == Element::kRobot ? wanted.quantity->name : std::string_view());
   }
   for (const BlockIndex block : context.task_outputs) context.builder.output(block);
@@ -332,8 +357,11 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
     control = control_of(store, view, robot, query, given, resolved, report);
   report.throw_if_errors();
   const std::vector<Step> task_steps = control ? steps_with(*control) : std::vector<Step>();
-  const Plan plan =
-      plan_of(query, resolved, control ? std::span(task_steps) : std::span(steps()), given, report);
+  const std::span<const Step> all = control ? std::span(task_steps) : std::span(steps());
+  // Plans point to steps, which therefore stay until the end.
+  const std::vector<Step> coupled = robot.coupled() ? of_coupled_joints(all) : std::vector<Step>();
+  const Plan plan = plan_of(query, robot, resolved, all, robot.coupled() ? std::span(coupled) : all,
+                            given, report);
   report.throw_if_errors();
 
   graph::Terms& terms = store.terms();

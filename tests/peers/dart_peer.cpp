@@ -5,6 +5,7 @@
 #include <dart/dynamics/Skeleton.hpp>
 #include <dart/dynamics/WeldJoint.hpp>
 
+#include "coupled_peer.h"
 #include "urdf_model.h"
 
 namespace sinew::peers {
@@ -324,6 +325,8 @@ class DartPeer final : public Peer {
 
 }  // namespace
 
-std::unique_ptr<Peer> make_dart(const Setup& setup) { return std::make_unique<DartPeer>(setup); }
+std::unique_ptr<Peer> make_dart(const Setup& setup) {
+  return with_followers(setup, [](const Setup& all) { return std::make_unique<DartPeer>(all); });
+}
 
 }  // namespace sinew::peers

@@ -4,6 +4,7 @@
 #include <kdl/treeidsolver_recursive_newton_euler.hpp>
 #include <kdl/treejnttojacsolver.hpp>
 
+#include "coupled_peer.h"
 #include "urdf_model.h"
 
 namespace sinew::peers {
@@ -233,6 +234,8 @@ class KdlPeer final : public Peer {
 
 }  // namespace
 
-std::unique_ptr<Peer> make_kdl(const Setup& setup) { return std::make_unique<KdlPeer>(setup); }
+std::unique_ptr<Peer> make_kdl(const Setup& setup) {
+  return with_followers(setup, [](const Setup& all) { return std::make_unique<KdlPeer>(all); });
+}
 
 }  // namespace sinew::peers

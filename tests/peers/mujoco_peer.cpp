@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "coupled_peer.h"
 #include "urdf_model.h"
 
 namespace sinew::peers {
@@ -443,7 +444,7 @@ class MujocoPeer final : public Peer {
 }  // namespace
 
 std::unique_ptr<Peer> make_mujoco(const Setup& setup) {
-  return std::make_unique<MujocoPeer>(setup);
+  return with_followers(setup, [](const Setup& all) { return std::make_unique<MujocoPeer>(all); });
 }
 
 }  // namespace sinew::peers

@@ -213,17 +213,6 @@ TEST(Urdf, SaysWhatItLeavesOut) {
             "robot's mechanics");
 }
 
-TEST(Urdf, SaysThatAMimickingJointIsAJointOfItsOwn) {
-  Model model;
-  normalise_texts(model,
-                  {urdf(std::string("<link name=\"c\"/>") + kTwoLinks + joint_text("") +
-                        "<joint name=\"k\" type=\"continuous\"><parent link=\"b\"/>"
-                        "<child link=\"c\"/><mimic joint=\"j\" multiplier=\"-1\"/></joint>")});
-  ASSERT_EQ(first_error(model), "");
-  EXPECT_EQ(model.tree.joints.size(), 2u);
-  EXPECT_NE(model.tree.notes.front().find("mimics"), std::string::npos);
-}
-
 struct FaultCase {
   const char* name;
   std::string body;
@@ -267,8 +256,8 @@ const std::vector<FaultCase>& faults() {
       {"TooLarge", two + joint_text("<axis xyz=\"1 0 1e999\"/>"),
        "robot.urdf:8:", "is not 3 finite numbers"},
       {"ZeroAxis", two + joint_text("<axis xyz=\"0 0 0\"/>"), "robot.urdf:8:", "axis is zero"},
-      {"PlanarJoint", two + joint_text("", "planar"), "robot.urdf:6:", "planar joint"},
-      {"FloatingJoint", two + joint_text("", "floating"), "robot.urdf:6:", "floating joint"},
+      {"PlanarMimic", two + joint_text("<mimic joint=\"j\"/>", "planar"),
+       "robot.urdf:6:", "several degrees of freedom mimics"},
       {"UnknownJoint", two + joint_text("", "spiral"), "robot.urdf:6:", "'spiral' is no type"},
       {"NoInertia", "<link name=\"a\"><inertial><mass value=\"1\"/></inertial></link>",
        "robot.urdf:2:", "no <inertia>"},

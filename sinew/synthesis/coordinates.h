@@ -1,0 +1,47 @@
+// A robot's coordinates: the numbers by which a user moves it. Most are the positions of the tree's
+// joints themselves. A joint of several degrees of freedom has one data block for all its numbers,
+// and joints that follow others have none. Steps know the tree's joints only: inputs are handed out
+// to these before the first sweep, and results gathered from them after the last.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "sinew/synthesis/context.h"
+
+namespace sinew::synthesis {
+
+struct Coordinate {
+  Id joint;                        // of the model
+  int compound = -1;               // index into Robot::compounds
+  std::vector<std::size_t> parts;  // joints of the tree that follow none, in the order of numbers
+};
+
+// In the order of the joints: base to tip, depth first.
+std::vector<Coordinate> coordinates(const Robot& robot);
+
+// By IRI or its last segment; Error that lists what there is, or says which joint it follows.
+Coordinate find_coordinate(const graph::View& view, const Robot& robot, std::string_view name);
+
+// The inputs for "position", "velocity", "acceleration" or "force" of every coordinate, and that
+// slot of every joint of the tree.
+void make_coordinate_inputs(Context& context, std::string_view slot);
+
+// The number of a coordinate's joint forces, accelerations, …: as a user sees them. `joint` is the
+// coordinate's.
+BlockIndex gathered(Context& context, std::string_view slot, Id joint);
+
+// The force of one joint of the tree with its share of those that follow it, in a slot that steps
+// have filled.
+BlockIndex coupled_force(Context& context, std::string_view slot, std::size_t joint);
+
+// That slot of every joint of the tree from the numbers of all coordinates, one after the other.
+void take_all(Context& context, std::string_view slot, BlockIndex numbers);
+
+// A matrix that the steps have filled for the joints of the tree, for the coordinates instead.
+BlockIndex coupled_matrix(Context& context, BlockIndex matrix);
+
+// Makes a result an output, after gathering and coupling. `name`: instead of the block's own.
+void hand_out(Context& context, std::string_view slot, Id element, std::string_view name);
+
+}  // namespace sinew::synthesis
