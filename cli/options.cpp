@@ -24,6 +24,10 @@ void add_model_options(CLI::App& app, ModelOptions& options) {
   app.add_option("MODEL", options.files, "Model files: JSON-LD, Turtle, TriG or URDF")->required();
   app.add_option("--catalog", options.catalogs,
                  "Folder with a catalog.json of more contexts (may be repeated)");
+  app.add_option("--steps", options.steps,
+                 "File with more synthesis steps (JSON-LD; they may also be among the models); may "
+                 "be repeated")
+      ->allow_extra_args(false);
   app.add_flag("--lenient", options.lenient, "Terms that no context defines: warn, do not refuse");
 }
 
@@ -61,6 +65,19 @@ void add_query_options(CLI::App& app, QueryOptions& options) {
       "--stationary-frames", options.stationary_frames,
       "Acceleration twists of the body at the point in space where the frame is (spatial), "
       "not of the frame's origin");
+  app.add_option("--constraint", options.constraints,
+                 "FRAME:DIRECTION,...[@base|@itself]: the frame's acceleration is imposed in these "
+                 "directions (linear-x ... angular-z, or so many unit forces as inputs) of the "
+                 "base's or its own axes; may be repeated")
+      ->allow_extra_args(false);
+  app.add_option("--singular", options.singular,
+                 "Where constraints depend on each other: in-order:TOLERANCE, truncated:TOLERANCE "
+                 "or damped:DAMPING");
+  app.add_option("--drivers", options.drivers,
+                 "together, apart (also what each driver contributes) or weighed (by inputs)");
+  app.add_option("--limit", options.limited,
+                 "Driver (constrained frame, joint, or joint-force for all) that is scaled down "
+                 "until no actuator saturates");
 }
 
 void add_derivative_option(CLI::App& app, QueryOptions& options) {

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "driver_options.h"
 #include "output.h"
 #include "sinew/algorithm/read.h"
 #include "sinew/model/load.h"
@@ -66,6 +67,7 @@ void add_options(synthesis::Query& query, const QueryOptions& options) {
   if (options.floating) query.floating = true;
   if (options.forces_apart) query.forces = synthesis::Forces::kApart;
   if (options.stationary_frames) query.frames = synthesis::Frames::kStationary;
+  apply_driver_options(options, query);
 }
 
 // The task that the models hold; null where they hold none.
@@ -147,7 +149,7 @@ graph::Id algorithm_of(Models& models, const synthesis::Query& asked,
   synthesis::Query query = asked;
   if (!query.task) query.task = task_of(models);
   normalise(models, query);
-  synthesis::Synthesis synthesis = synthesis::synthesise(models.store, query);
+  synthesis::Synthesis synthesis = synthesis::synthesise(models.store, query, &models.places);
   for (const std::string& note : synthesis.notes) print_note(note);
   if (why != nullptr) *why = std::move(synthesis.why);
   return synthesis.algorithm;
@@ -187,6 +189,7 @@ std::unique_ptr<Models> load(const ModelOptions& options) {
   for (const std::string& file : options.files) {
     if (!is_program(file)) files.emplace_back(file);
   }
+  files.insert(files.end(), options.steps.begin(), options.steps.end());
   Report report;
   model::load_files(files, load_options, models->store, models->places, report);
   print_notes(report);

@@ -15,6 +15,7 @@ struct ModelOptions {
   std::vector<std::string> files;
   std::vector<std::string> catalogs;
   bool lenient = false;
+  std::vector<std::string> steps = {};  // more files, with steps that are data
 };
 
 // Which query to answer on them: all that is named here, together. Where nothing is, the files must
@@ -30,6 +31,12 @@ struct QueryOptions {
   bool floating = false;
   bool forces_apart = false;
   bool stationary_frames = false;
+
+  // Drivers and policies beside those of the query (driver_options.cpp has their grammar).
+  std::vector<std::string> constraints;  // "FRAME:linear-z,angular-x[@base|@itself]"
+  std::string singular;                  // "in-order:1e-9", "damped:0.01", "truncated:1e-6"
+  std::string drivers;                   // "together", "apart", "weighed"
+  std::string limited;                   // a driver
   std::vector<std::string> derivatives;  // "OUT/IN" each: sinew/program/derivatives.h
 };
 

@@ -23,5 +23,7 @@ struct OperatorRow {
 std::span<const OperatorRow> control_operator_rows();
 // operators_relative.cpp: motion between two frames, coordinates of rotation
 std::span<const OperatorRow> relative_operator_rows();
+// operators_hybrid.cpp: acceleration constraints and drivers
+std::span<const OperatorRow> hybrid_operator_rows();
 
 }  // namespace sinew::algorithm

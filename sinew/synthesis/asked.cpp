@@ -37,6 +37,14 @@ constexpr AskedQuantity kAsked[] = {
     {"potential-energy", Element::kRobot, "potential-energy", "potential-energy", false, true},
     {"control-force", Element::kJoint, "control-force", "control-force", true, true},
     {"gravity-force", Element::kJoint, "gravity-force", "gravity-force", true, true},
+    // Hybrid dynamics.
+    {"constraint-magnitude", Element::kConstraint, "constraint-magnitude", "constraint-magnitude",
+     true, true},
+    {"constraint-force", Element::kJoint, "constraint-force", "constraint-force", true, true},
+    {"control-force", Element::kJoint, "control-force", "control-force", true, true},
+    {"driver-acceleration", Element::kDriverJoint, "driver-acceleration", "driver-acceleration",
+     true, true},
+    {"driver-scale", Element::kLimited, "driver-scale", "driver-scale", true, true},
 };
 
 constexpr GivenQuantity kGiven[] = {
@@ -46,6 +54,7 @@ constexpr GivenQuantity kGiven[] = {
     {"joint-force", Element::kJoint, "force"},
     {"gravity", Element::kRobot, "base-acceleration"},
     {"external-wrench", Element::kFrame, "wrench"},
+    {"acceleration-constraint", Element::kFrame, "acceleration-energy"},
 };
 
 template <typename Rows>

@@ -8,7 +8,15 @@
 namespace sinew::synthesis {
 
 // What a quantity belongs to.
-enum class Element : std::uint8_t { kFrame, kJoint, kRobot };
+enum class Element : std::uint8_t {
+  kFrame,
+  kJoint,
+  kRobot,
+  kConstraint,   // each constrained direction
+  kDriver,       // each group of drivers
+  kDriverJoint,  // each group of drivers at each joint
+  kLimited,      // the group that is scaled down
+};
 
 struct AskedQuantity {
   std::string_view name;  // "joint-force"

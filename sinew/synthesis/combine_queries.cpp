@@ -44,6 +44,7 @@ Query combined(std::span<const Query> queries) {
     agree(all.floating, query.floating, false, "kind of base", query);
     agree(all.forces, query.forces, Forces::kTogether, "policy for forces", query);
     agree(all.frames, query.frames, Frames::kMoving, "policy for frames", query);
+    agree(all.drivers, query.drivers, {}, "policy for drivers", query);
     all.regroup = all.regroup && query.regroup;
   }
   return all;

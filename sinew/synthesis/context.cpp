@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "sinew/base/error.h"
+#include "sinew/synthesis/step_models.h"
 
 namespace sinew::synthesis {
 
@@ -79,6 +80,27 @@ BlockIndex Context::block(std::string_view slot, Id element) const {
                         {},
                         {}});
   return found;
+}
+
+Id Context::slots_graph() const {
+  graph::Terms& terms = builder.terms();
+  return terms.derived(terms.iri(std::string(kSlotNamespace) + "Blackboard"),
+                       {builder.algorithm().id});
+}
+
+void Context::show_slots(std::span<const std::string> slots) {
+  graph::Terms& terms = builder.terms();
+  const Id graph = slots_graph();
+  for (const std::string& slot : slots) {
+    const Id property = terms.iri(std::string(kSlotNamespace) + slot);
+    board.for_each(slot, [&](Id element, BlockIndex block) {
+      const auto [found, fresh] = shown.try_emplace({slot, element}, block);
+      if (!fresh && found->second == block) return;
+      if (!fresh) transaction->remove({element, property, builder.at(found->second).id, graph});
+      transaction->add({element, property, builder.at(block).id, graph});
+      found->second = block;
+    });
+  }
 }
 
 BlockIndex Context::make(const algorithm::BlockSpec& spec) {

@@ -15,6 +15,7 @@
 #include "sinew/algorithm/builder.h"
 #include "sinew/graph/store.h"
 #include "sinew/synthesis/external_wrenches.h"
+#include "sinew/synthesis/motion_drivers.h"
 #include "sinew/synthesis/query.h"
 #include "sinew/synthesis/relation.h"
 #include "sinew/synthesis/robot.h"
@@ -32,6 +33,14 @@ class Blackboard {
   void put(std::string_view slot, Id element, BlockIndex block);
   // algorithm::kNoIndex when the slot is empty.
   BlockIndex find(std::string_view slot, Id element) const;
+
+  // Calls visit(element, block) for each element that has one in this slot.
+  template <typename Visit>
+  void for_each(std::string_view slot, Visit visit) const {
+    const auto found = slots_.find(slot);
+    if (found == slots_.end()) return;
+    for (const auto& [element, block] : found->second) visit(element, block);
+  }
 
   // Several effects that are kept apart, each with the element that it comes from: the forces that
   // reach a body, one for each driver or joint.
@@ -67,12 +76,20 @@ struct Context {
   std::vector<Relation> relations = {};  // motions that are asked for between any two frames
   const Control* control = nullptr;           // the task's, where there is one
   std::vector<BlockIndex> task_outputs = {};  // flags, events and control signals
+  MotionDrivers drivers = {};  // acceleration constraints, external wrenches, groups of drivers
   Blackboard board = {};
-  const Step* step = nullptr;  // whose pass is running
+  graph::Transaction* transaction = nullptr;                    // the synthesis' own
+  std::map<std::pair<std::string, Id>, BlockIndex> shown = {};  // by show_slots
+  const Step* step = nullptr;                                   // whose pass is running
 
   // The block in a slot; Error naming the step, slot and element when it is empty.
   BlockIndex block(std::string_view slot, Id element) const;
   bool has(std::string_view slot, Id element) const;
+
+  // Writes what is in these slots into a graph of its own, for the queries of steps that are data:
+  // ELEMENT slot:NAME BLOCK (step_models.h).
+  void show_slots(std::span<const std::string> slots);
+  Id slots_graph() const;
 
   // Makes a block and puts it in its slot.
   BlockIndex make(const algorithm::BlockSpec& spec);

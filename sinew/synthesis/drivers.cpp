@@ -103,6 +103,43 @@ void make_wrenches(Context& context) {
   }
 }
 
+// First all directions that are inputs, then the setpoints of all directions.
+void make_constraints(Context& context) {
+  const MotionDrivers& drivers = context.drivers;
+  for (const ConstraintDirection& direction : drivers.directions) {
+    const AccelerationConstraint& constraint = drivers.constraints[direction.constraint];
+    algorithm::BlockSpec spec = {
+        .slot = "constraint-direction",
+        .represents = direction.element,
+        .quantity = "wrench",
+        .of = constraint.at.body,
+        .reference = constraint.at.frame,
+        .seen_by = constraint.seen_by_itself ? constraint.at.frame : context.robot.root_frame,
+        .role = direction.unit_force ? Role::kConstant : Role::kInput,
+        .label = direction.label};
+    if (direction.unit_force) spec.value = *direction.unit_force;
+    context.make(spec);
+  }
+  for (const ConstraintDirection& direction : drivers.directions)
+    context.make({.slot = "acceleration-energy",
+                  .represents = direction.element,
+                  .quantity = "acceleration-energy",
+                  .role = Role::kInput,
+                  .label = direction.label});
+}
+
+void make_weights(Context& context) {
+  for (std::size_t i = 0; i < context.drivers.groups.size(); ++i) {
+    if (!context.drivers.weighed || i == context.drivers.limited) continue;
+    const DriverGroup& group = context.drivers.groups[i];
+    context.make({.slot = "driver-weight",
+                  .represents = group.element,
+                  .quantity = "magnitude",
+                  .role = Role::kInput,
+                  .label = group.label});
+  }
+}
+
 }  // namespace
 
 algorithm::BlockSpec joint_quantity(std::string_view slot, const RobotJoint& joint) {
@@ -137,13 +174,16 @@ void make_drivers(Context& context, Report& report) {
     if (!gives(context.query, row.name)) continue;
     if (row.element == Element::kJoint)
       make_joint_inputs(context, row);
-    else if (row.element == Element::kFrame)
+    else if (row.name == "external-wrench")
       make_wrenches(context);
+    else if (row.name == "acceleration-constraint")
+      make_constraints(context);
     else if (gravity_varies(context.query))
       make_varying_gravity(context);
     else
       make_gravity(context);
   }
+  make_weights(context);
 }
 
 }  // namespace sinew::synthesis

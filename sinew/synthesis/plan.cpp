@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -25,6 +27,7 @@ class Planner {
       std::vector<std::string> missing;
       if (!obtain(wish.slot, "asked: " + wish.asked, missing)) refuse(wish, missing, report);
       in_progress_.clear();
+      unknown_.clear();
     }
     use_what_is_there();
     return sort();
@@ -33,8 +36,14 @@ class Planner {
  private:
   enum class State { kOpen, kTaken, kImpossible };
 
-  static void refuse(const Wish& wish, const std::vector<std::string>& missing, Report& report) {
-    if (missing.empty()) {
+  void refuse(const Wish& wish, const std::vector<std::string>& missing, Report& report) const {
+    for (const std::string& slot : unknown_)
+      if (missing.empty() && slot != wish.slot)
+        report.error(
+            {}, "",
+            fmt::format("{} cannot be computed without {}, which no step gives", wish.asked, slot),
+            "add a step that gives it");
+    if (missing.empty() && (unknown_.empty() || unknown_.contains(wish.slot))) {
       report.error({}, "", fmt::format("nothing computes {}", wish.asked),
                    "ask for a quantity that `sinew synth --help` lists");
       return;
@@ -52,6 +61,10 @@ class Planner {
     if (given_.contains(slot) || made_.contains(slot)) return true;
     if (!in_progress_.insert(slot).second) return false;  // it would need itself
     const bool asked = in_progress_.size() == 1;
+    if (find_given_for(slot) == nullptr &&
+        std::none_of(steps_.begin(), steps_.end(),
+                     [&](const Step& step) { return contains(step.gives, slot); }))
+      unknown_.insert(slot);
     const std::size_t mark = missing.size();
     bool found = false;
     for (const Step& step : steps_) {
@@ -95,10 +108,9 @@ class Planner {
   // The first sweep in which all that a step needs is there: the same one as its giver's if both go
   // the same way or one of them stays where it is, a later one otherwise.
   Plan sort() {
-    std::stable_sort(taken_.begin(), taken_.end());  // the list's own order: givers first
     std::vector<Sweep> sweeps;
     std::unordered_map<const Step*, std::size_t> sweep_of;
-    for (const Step* step : taken_) {
+    for (const Step* step : givers_first()) {
       std::size_t at = 0;
       for (const Step* giver : givers(*step)) {
         const std::size_t after = sweep_of.at(giver);
@@ -129,6 +141,26 @@ class Planner {
     return plan;
   }
 
+  // The list's own order, but for steps whose givers come later in it.
+  std::vector<const Step*> givers_first() {
+    std::sort(taken_.begin(), taken_.end());
+    std::vector<const Step*> sorted;
+    std::unordered_set<const Step*> placed;
+    while (sorted.size() < taken_.size()) {
+      const auto next = std::find_if(taken_.begin(), taken_.end(), [&](const Step* step) {
+        const std::vector<const Step*> before = givers(*step);
+        return !placed.contains(step) &&
+               std::all_of(before.begin(), before.end(),
+                           [&](const Step* giver) { return placed.contains(giver); });
+      });
+      if (next == taken_.end())
+        throw std::logic_error("the planner took steps that need each other");
+      placed.insert(*next);
+      sorted.push_back(*next);
+    }
+    return sorted;
+  }
+
   std::vector<const Step*> givers(const Step& step) {
     std::vector<std::string> slots = step.needs;
     const std::vector<std::string>& used = used_[&step];
@@ -143,6 +175,7 @@ class Planner {
 
   std::span<const Step> steps_;
   std::unordered_set<std::string> given_, made_, in_progress_;
+  std::set<std::string> unknown_;  // that no step and no driver gives
   std::vector<const Step*> taken_;
   std::unordered_map<const Step*, std::string> why_;
   std::unordered_map<const Step*, std::vector<std::string>> used_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +44,14 @@ struct Given {
   // frame on which they act.
   std::string seen_by = {};
   bool varies = false;  // of gravity: an input of each call instead of a constant
+  std::string iri = {};  // its own node, where it has one
+
+  // Of an acceleration constraint: the directions in which the frame's acceleration with respect to
+  // the base is imposed, each by a unit constraint force. Axes are "linear-x" ... "angular-z"; any
+  // other unit force is six numbers, moment first; and so many more come as inputs.
+  std::vector<std::string> directions = {};
+  std::vector<std::array<double, 6>> unit_forces = {};
+  unsigned direction_inputs = 0;  // seen by the base's axes (also when it is empty) or by its own
 
   bool operator==(const Given&) const = default;
 };
@@ -56,6 +65,25 @@ enum class Forces {
 enum class Frames {
   kMoving,      // of the velocity of its origin, which moves with the body: classical
   kStationary,  // of the velocity of the body at the point in space where its origin is: spatial
+};
+
+// What happens where acceleration constraints depend on each other, or the robot cannot move their
+// way (math/constraint_solve.h).
+enum class Singular : std::uint8_t { kUnstated, kInOrder, kDamped, kTruncated };
+
+// Whether the effects of drivers (gravity, velocity, wrenches, joint forces, constraints) are added
+// up early, or each is carried on by itself to the last sweep, which may then weigh them.
+enum class DriverList : std::uint8_t { kTogether, kApart, kWeighed };
+
+struct DriverPolicy {
+  Singular singular = Singular::kUnstated;
+  double singular_number = 0;  // tolerance, or damping; both of the scaled matrix, without unit
+  DriverList list = DriverList::kTogether;
+  // The driver that is scaled down until no actuator saturates: a constraint or a joint force, by
+  // IRI or its last segment, or "joint-force" for all of those; empty: none is.
+  std::string limited;
+
+  bool operator==(const DriverPolicy&) const = default;
 };
 
 struct Query {
@@ -74,6 +102,7 @@ struct Query {
   Frames frames = Frames::kMoving;
   // Whose controllers work with the solver (control.h); null: none.
   std::shared_ptr<const task::Task> task = nullptr;
+  DriverPolicy drivers;
   std::string sweeps;  // name of a hand-written sweep configuration; empty: planned
 };
 

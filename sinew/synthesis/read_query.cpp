@@ -21,6 +21,7 @@ using graph::Id;
 
 // What a query names in a word lies here until the model says which element it is.
 constexpr std::string_view kNameNamespace = "https://w3id.org/sinew/name#";
+constexpr std::int64_t kMostDirectionInputs = 6;
 
 // A JSON-LD text in a graph of its own.
 struct Document {
@@ -90,11 +91,15 @@ class Reader {
   }
 
   std::vector<Id> list(Id subject, std::string_view property) {
-    std::vector<Id> items;
     const std::vector<Id> heads = objects(subject, property);
-    if (heads.empty()) return items;
+    return heads.empty() ? std::vector<Id>{} : items(subject, property, heads.front());
+  }
+
+  // The items of a list that a property of `subject` leads to.
+  std::vector<Id> items(Id subject, std::string_view property, Id head) {
+    std::vector<Id> items;
     const Id nil = rdf("nil"), first = rdf("first"), rest = rdf("rest");
-    for (Id node = heads.front(); node && node != nil; node = view_.object(node, rest)) {
+    for (Id node = head; node && node != nil; node = view_.object(node, rest)) {
       const Id item = first ? view_.object(node, first) : Id{};
       if (!item || items.size() > kLongestList) {
         error(subject, property, "has a broken list of", "write a list");
@@ -158,6 +163,68 @@ void read_gravity(Reader& reader, Id node, Query& query) {
     reader.error(node, "gravity", "has no vector of", "three numbers [m/s^2]");
 }
 
+// Of six numbers.
+std::array<double, 6> read_unit_force(Reader& reader, Id given, Id list) {
+  std::array<double, 6> force{};
+  const std::vector<Id> numbers = reader.items(given, "unit-forces", list);
+  bool fine = numbers.size() == force.size();
+  for (std::size_t i = 0; fine && i < force.size(); ++i) {
+    const auto number = reader.terms().number(numbers[i]);
+    fine = number.has_value();
+    force[i] = number.value_or(0);
+  }
+  if (!fine)
+    reader.error(given, "unit-forces", "has an entry that is no unit force in",
+                 "six numbers, moment first");
+  return force;
+}
+
+Given read_given(Reader& reader, Id node) {
+  Given given{reader.required_text(node, "quantity"), reader.element(node, "of"),
+              reader.element(node, "seen-by"), reader.text(node, "varies") == "true"};
+  if (given.quantity != "acceleration-constraint") return given;
+  if (reader.terms().is_iri(node)) given.iri = reader.terms().text(node);
+  for (const Id direction : reader.list(node, "directions"))
+    given.directions.emplace_back(short_name(reader.terms().text(direction)));
+  for (const Id list : reader.list(node, "unit-forces"))
+    given.unit_forces.push_back(read_unit_force(reader, node, list));
+  if (const std::vector<Id> number = reader.objects(node, "direction-inputs"); !number.empty()) {
+    const auto count = reader.terms().integer_value(number.front());
+    if (number.size() > 1 || !count || *count < 1 || *count > kMostDirectionInputs)
+      reader.error(node, "direction-inputs", "has no good number of", "a number from 1 to 6");
+    else
+      given.direction_inputs = static_cast<unsigned>(*count);
+  }
+  return given;
+}
+
+double read_number(Reader& reader, Id node, std::string_view property) {
+  const std::vector<Id> found = reader.objects(node, property);
+  const auto number = found.size() == 1 ? reader.terms().number(found.front()) : std::nullopt;
+  if (!number) reader.error(node, property, "lacks", "state one number");
+  return number.value_or(0);
+}
+
+void read_policies(Reader& reader, Id node, DriverPolicy& policy) {
+  const auto word = [&](std::string_view property) {
+    return std::string(short_name(reader.text(node, property)));
+  };
+  const std::string singular = word("singular"), list = word("drivers");
+  if (singular == "in-order") policy.singular = Singular::kInOrder;
+  if (singular == "truncated") policy.singular = Singular::kTruncated;
+  if (singular == "damped") policy.singular = Singular::kDamped;
+  if (policy.singular != Singular::kUnstated)
+    policy.singular_number =
+        read_number(reader, node, policy.singular == Singular::kDamped ? "damping" : "tolerance");
+  else if (!singular.empty())
+    reader.error(node, "singular", "has another word for", "in-order, damped or truncated");
+  if (list == "apart") policy.list = DriverList::kApart;
+  if (list == "weighed") policy.list = DriverList::kWeighed;
+  if (!list.empty() && list != "together" && policy.list == DriverList::kTogether)
+    reader.error(node, "drivers", "has another word for", "together, apart or weighed");
+  policy.limited = reader.element(node, "limited");
+}
+
 SweepConfiguration read_sweeps(const graph::View& view, Id node, const graph::Places* places,
                                Report& report) {
   Reader reader(view, places, report);
@@ -191,9 +258,7 @@ Query read_query(const graph::View& view, Id node, const graph::Places* places, 
                            reader.element(asked, "seen-by"),
                            reader.element(asked, "with-respect-to")});
   for (const Id given : reader.objects(node, "gives"))
-    query.given.push_back({reader.required_text(given, "quantity"), reader.element(given, "of"),
-                           reader.element(given, "seen-by"),
-                           reader.text(given, "varies") == "true"});
+    query.given.push_back(read_given(reader, given));
   query.base = reader.element(node, "base");
   for (const Id tip : reader.list(node, "tips"))
     query.tips.push_back(Reader::element_of(std::string(view.terms().text(tip))));
@@ -203,6 +268,7 @@ Query read_query(const graph::View& view, Id node, const graph::Places* places, 
       reader.is_second(node, "forces", "together", "apart") ? Forces::kApart : Forces::kTogether;
   query.frames = reader.is_second(node, "frames", "moving", "stationary") ? Frames::kStationary
                                                                           : Frames::kMoving;
+  read_policies(reader, node, query.drivers);
   query.sweeps = reader.text(node, "sweeps");
   if (query.asked.empty())
     reader.error(node, "asks", "asks for nothing: it lacks", "list what is asked");

@@ -131,8 +131,11 @@ Id find_frame(graph::Store& store, const View& view, std::string_view name) {
     if (short_name(frame) == name) note(by_name, row[0]);
     if (short_name(link) == name && row[1]) note(by_link, row[0]);
   }
-  for (const std::vector<Id>* list : {&exact, &by_name, &by_link}) {
+  // A link and its root frame often share their name with further frames, such as that of its
+  // inertia.
+  for (const std::vector<Id>* list : {&exact, &by_name, &by_link})
     if (list->size() == 1) return list->front();
+  for (const std::vector<Id>* list : {&exact, &by_name, &by_link}) {
     if (list->empty()) continue;
     std::string all;
     for (const Id one : *list) all += (all.empty() ? "" : ", ") + text(view, one);

@@ -10,12 +10,15 @@
 #include "sinew/synthesis/asked.h"
 #include "sinew/synthesis/context.h"
 #include "sinew/synthesis/control.h"
+#include "sinew/synthesis/driver_list.h"
 #include "sinew/synthesis/drivers.h"
 #include "sinew/synthesis/external_wrenches.h"
 #include "sinew/synthesis/floating_base.h"
+#include "sinew/synthesis/hybrid_steps.h"
 #include "sinew/synthesis/plan.h"
 #include "sinew/synthesis/read_query.h"
 #include "sinew/synthesis/regroup.h"
+#include "sinew/synthesis/step_models.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -67,9 +70,15 @@ std::vector<Id> tips(graph::Store& store, const graph::View& view, const Robot& 
 
 // The elements that a question is about, in the order of the outputs.
 std::vector<Id> elements(graph::Store& store, const graph::View& view, const Robot& robot,
-                         const Query& query, const Asked& asked, Element kind) {
+                         const Query& query, const MotionDrivers& drivers, const Asked& asked,
+                         Element kind) {
   std::vector<Id> found;
   switch (kind) {
+    case Element::kConstraint:
+    case Element::kDriver:
+    case Element::kDriverJoint:
+    case Element::kLimited:
+      return driver_elements(store, robot, query, drivers, asked, kind);
     case Element::kRobot:
       return {robot.root_body};
     case Element::kFrame:
@@ -127,14 +136,20 @@ void check_directions(const Asked& asked, const AskedQuantity& row) {
 }
 
 Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robot,
-                 const Query& query, std::span<const ExternalWrench> wrenches, Report& report) {
+                 const Query& query, std::span<const ExternalWrench> wrenches,
+                 const MotionDrivers& drivers, std::span<const AskedQuantity> more,
+                 Report& report) {
   Resolved resolved;
   if (query.asked.empty())
     report.error({}, query.name, "the query asks for nothing", "state what is asked");
   for (const Asked& asked : query.asked) {
     const AskedQuantity* row = find_asked(asked.quantity);
+    for (const AskedQuantity& one : more)
+      if (one.name == asked.quantity) row = &one;
     if (row == nullptr) {
       std::string known;
+      for (const AskedQuantity& one : more)
+        known += (known.empty() ? "" : ", ") + std::string(one.name);
       for (const AskedQuantity& one : asked_quantities())
         known += (known.empty() ? "" : ", ") + std::string(one.name);
       report.error({}, query.name, fmt::format("nothing is known of {}", asked.quantity),
@@ -147,9 +162,10 @@ Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robo
     resolved.wishes.push_back({std::string(between ? row->between : row->needs), asked.quantity});
     try {
       if (!between) check_directions(asked, *row);
-      for (const Id element : row->name == "joint-force-share"
-                                  ? shares(store, view, robot, query, wrenches)
-                                  : elements(store, view, robot, query, asked, row->element)) {
+      for (const Id element :
+           row->name == "joint-force-share"
+               ? shares(store, view, robot, query, wrenches)
+               : elements(store, view, robot, query, drivers, asked, row->element)) {
         if (!between) {
           resolved.wanted.push_back({row, element, {element}});
           continue;
@@ -204,7 +220,7 @@ void wish_for_drivers(std::span<const ExternalWrench> wrenches, const Query& que
 
 // What the expansion queries and conditions see of the question.
 void write_asks(graph::Store& store, graph::Transaction& transaction, Id algorithm,
-                const Resolved& resolved) {
+                const Resolved& resolved, const MotionDrivers& drivers) {
   graph::Terms& terms = store.terms();
   const auto sa = [&](std::string_view name) {
     return terms.iri(std::string(kAlgorithmNamespace) + std::string(name));
@@ -214,6 +230,8 @@ void write_asks(graph::Store& store, graph::Transaction& transaction, Id algorit
     transaction.add(
         {algorithm, sa("asks-" + std::string(wanted.quantity->name)), wanted.element, algorithm});
   }
+  for (const Id frame : constrained_frames(drivers))
+    transaction.add({algorithm, sa("asks"), frame, algorithm});
 }
 
 void set_scope(Context& context, const Resolved& resolved) {
@@ -224,10 +242,20 @@ void set_scope(Context& context, const Resolved& resolved) {
         context.scope.insert(context.robot.joints[joint].frame);
 }
 
+// Steps that the query's drivers call for, those that come with Sinew, and those of the graph:
+// where two give the same, the first one is taken.
+std::vector<Step> available_steps(const MotionDrivers& drivers, std::span<const Step> own,
+                                  const StepModels& models) {
+  std::vector<Step> list = hybrid_steps(drivers);
+  list.insert(list.end(), own.begin(), own.end());
+  list.insert(list.end(), models.steps.begin(), models.steps.end());
+  return list;
+}
+
 // The planner's sweeps, or those that somebody wrote.
-Plan plan_of(const Query& query, const Resolved& resolved, std::span<const Step> steps,
+Plan plan_of(const Query& query, const Resolved& resolved, std::span<const Step> available,
              std::span<const std::string> given, Report& report) {
-  if (query.sweeps.empty()) return make_plan(steps, resolved.wishes, given, report);
+  if (query.sweeps.empty()) return make_plan(available, resolved.wishes, given, report);
   const SweepConfiguration configuration = named_sweeps(query.sweeps);
   Plan plan;
   for (const SweepNames& names : configuration.sweeps) {
@@ -235,8 +263,10 @@ Plan plan_of(const Query& query, const Resolved& resolved, std::span<const Step>
         names.direction == to_string(Direction::kInward) ? Direction::kInward : Direction::kOutward,
         {}};
     for (const std::string& name : names.steps) {
-      if (const Step* step = find_step(name))
-        sweep.steps.push_back(step);
+      const auto step = std::find_if(available.begin(), available.end(),
+                                     [&](const Step& one) { return one.name == name; });
+      if (step != available.end())
+        sweep.steps.push_back(&*step);
       else
         report.error({}, configuration.iri, fmt::format("there is no step {}", name),
                      "name one of sinew/synthesis/steps.cpp");
@@ -311,7 +341,7 @@ Robot read_floating_robot(graph::Store& store, const graph::View& view, const Ro
 
 }  // namespace
 
-Synthesis synthesise(graph::Store& store, const Query& query) {
+Synthesis synthesise(graph::Store& store, const Query& query, const graph::Places* places) {
   graph::Transaction transaction = store.begin();
   const graph::View view = transaction.view();
   Robot robot = read_robot(store, view);
@@ -324,16 +354,22 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
 
   Report report;
   const std::vector<ExternalWrench> wrenches = external_wrenches(store, view, robot, query, report);
-  Resolved resolved = resolve(store, view, robot, query, wrenches, report);
+  MotionDrivers drivers = resolve_motion_drivers(store, view, robot, query, wrenches, report);
+  const StepModels models = read_step_models(store, view, places, report);
+  report.throw_if_errors();
+  std::vector<AskedQuantity> answered;
+  for (const AnsweredQuantity& one : models.answers) answered.push_back(one.row());
+  Resolved resolved = resolve(store, view, robot, query, wrenches, drivers, answered, report);
   wish_for_drivers(wrenches, query, resolved);
   const std::vector<std::string> given = given_slots(query);
   std::optional<Control> control;
   if (query.task && !query.task->empty())
     control = control_of(store, view, robot, query, given, resolved, report);
   report.throw_if_errors();
-  const std::vector<Step> task_steps = control ? steps_with(*control) : std::vector<Step>();
-  const Plan plan =
-      plan_of(query, resolved, control ? std::span(task_steps) : std::span(steps()), given, report);
+  const std::vector<Step> available =
+      available_steps(drivers, control ? steps_with(*control) : steps(), models);
+  const Plan plan = plan_of(query, resolved, available, given, report);
+  if (!report.has_errors()) check_drivers_are_used(drivers, plan, report);
   report.throw_if_errors();
 
   graph::Terms& terms = store.terms();
@@ -359,10 +395,12 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
                 : robot.root_body};
   context.wrenches = wrenches;
   context.relations = resolved.relations;
+  context.drivers = std::move(drivers);
+  context.transaction = &transaction;
   if (falls && !gravity_varies(query)) context.gravity = gravity(context, result.notes);
   context.inertias = stated_inertias(context);
   if (query.regroup && resolved.regroups) regroup(context, context.inertias);
-  write_asks(store, transaction, result.algorithm, resolved);
+  write_asks(store, transaction, result.algorithm, resolved, context.drivers);
   if (!control) set_scope(context, resolved);  // a task may speak of any joint
   if (control) context.control = &*control;
   make_drivers(context, report);
@@ -370,6 +408,8 @@ Synthesis synthesise(graph::Store& store, const Query& query) {
 
   result.counts = run_sweeps(context, plan.sweeps);
   hand_out(context, resolved);
+  write_driver_list(context, transaction);
+  transaction.clear(context.slots_graph());
   builder.finish();
   floating.reset();
   transaction.commit();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sinew/graph/places.h"
 #include "sinew/graph/store.h"
 #include "sinew/synthesis/query.h"
 #include "sinew/synthesis/sweep.h"
@@ -20,6 +21,9 @@ struct Synthesis {
 // Writes the algorithm in one transaction: all of it or, when Error is thrown, nothing. The same
 // model and query give the same nodes; an algorithm of the same query that is there already is
 // replaced. A query that cannot be answered is refused with all that is missing and how to give it.
-Synthesis synthesise(graph::Store& store, const Query& query);
+// Steps that are in the graph (step_models.h) stand beside those that come with Sinew; `places`
+// says where they, and whatever else is at fault, were written.
+Synthesis synthesise(graph::Store& store, const Query& query,
+                     const graph::Places* places = nullptr);
 
 }  // namespace sinew::synthesis

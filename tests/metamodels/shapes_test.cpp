@@ -43,7 +43,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& ending
 }
 
 // Everything that the project writes: the Gen3, its normalised tree, an algorithm, every named
-// query with the sweeps, and the example of the block language.
+// query with the sweeps and steps, and the example of the block language.
 class Ours : public testing::Test {
  protected:
   Ours() {
@@ -58,7 +58,7 @@ class Ours : public testing::Test {
     graph::Store& store = models_->store;
 
     const catalogue::Catalogue catalogue;
-    for (const char* folder : {"solvers", "solvers/sweeps"}) {
+    for (const char* folder : {"solvers", "solvers/sweeps", "solvers/steps"}) {
       for (const fs::path& file : files_in(kProject / folder, ".json")) {
         jsonld::Loader loader(catalogue);
         Report report;
@@ -102,6 +102,7 @@ class Ours : public testing::Test {
                             "PREFIX tree: <https://w3id.org/sinew/kinematic-tree#> "
                             "PREFIX sa: <https://w3id.org/sinew/algorithm#> "
                             "PREFIX sq: <https://w3id.org/sinew/query#> "
+                            "PREFIX ss: <https://w3id.org/sinew/step-model#> "
                             "PREFIX sg: <https://w3id.org/sinew/geometry#> "
                             "PREFIX data: <https://w3id.org/sinew/data#> "
                             "PREFIX rdf: <http://www.w3.org/1999/02/22-rdf-syntax-ns#> "
@@ -144,6 +145,11 @@ TEST_F(Ours, WhatIsTakenAwayIsMissed) {
       {"DELETE WHERE { ?x sq:asks ?y }", "A query asks for something"},
       {"DELETE { ?x sq:quantity ?y } WHERE { ?x a sq:Asked ; sq:quantity ?y }", "has one quantity"},
       {"DELETE WHERE { ?x sq:steps ?y }", "query#steps"},
+      {"INSERT DATA { <http://e/c> a sq:Given ; sq:quantity \"acceleration-constraint\" }",
+       "directions, unit-forces or direction-inputs"},
+      {"DELETE WHERE { ?x ss:gives ?y }", "A step gives something"},
+      {"DELETE { ?x ss:compute ?y ; ss:configure ?z } WHERE { ?x ss:compute ?y ; ss:configure ?z }",
+       "A visitor has a pass"},
       {"DELETE { ?x data:name ?y } WHERE { ?x a data:Prototype ; data:name ?y }", "needs one name"},
       {"DELETE { ?x data:text ?y } WHERE { ?x a data:Representation ; data:text ?y }", "data#text"},
       {"INSERT DATA { <http://e/d> a sg:DirectionReference }", "names one direction"},

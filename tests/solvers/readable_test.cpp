@@ -33,6 +33,11 @@ void compare(const cli::ModelOptions& files, const std::string& solver, bool flo
   query.solver = solver;
   query.gravity = "0,0,-9.81";
   query.floating = floating;
+  if (solver == "hybrid") {  // its blanks
+    query.constraints = {floating ? "rh_foot:linear-x,linear-z" : "panda_hand:linear-z,angular-x"};
+    query.singular = floating ? "damped:0.01" : "truncated:1e-6";
+    query.drivers = "weighed";
+  }
   const auto models = cli::load(files);
   program::Program program;
   try {

@@ -55,6 +55,30 @@ TEST(Plan, TakesWhatSeveralThingsNeedOnce) {
   EXPECT_THAT(words, HasSubstr("outward: joint-pose pose frame-pose joint-velocity"));
 }
 
+// Acceleration that follows from forces, and moves the tip: its step comes after that of the tip in
+// the list.
+TEST(Plan, PutsGiversFirstWhateverTheOrderOfTheList) {
+  EXPECT_THAT(
+      plan({{"acceleration-twist", "acceleration-twist"}}, {"position", "velocity", "force"}),
+      HasSubstr("outward: forward-dynamics joint-acceleration body-acceleration "
+                "frame-acceleration"));
+}
+
+TEST(Plan, NamesWhatNoStepGives) {
+  const std::vector<Step> list = {{.name = "luck",
+                                   .purpose = "",
+                                   .expansion = "",
+                                   .needs = {"charm"},
+                                   .may_use = {},
+                                   .gives = {"fortune"},
+                                   .visitors = {}}};
+  Report report;
+  make_plan(list, std::vector<Wish>{{"fortune", "fortune"}}, Slots{}, report);
+  ASSERT_EQ(report.problems().size(), 1u);
+  EXPECT_THAT(to_string(report.problems().front()),
+              HasSubstr("fortune cannot be computed without charm, which no step gives"));
+}
+
 TEST(Plan, DoesNothingForWhatIsGiven) { EXPECT_EQ(plan({force()}, {"force"}), ""); }
 
 TEST(Plan, NamesTheDriverThatIsMissing) {

@@ -376,11 +376,15 @@ Query translate(const syntax::Query& source, std::span<const std::string_view> p
 
 Query translate_where(const syntax::Operation& operation,
                       std::shared_ptr<const syntax::Source> source,
-                      const std::vector<syntax::Variable>& columns) {
+                      const std::vector<syntax::Variable>& columns,
+                      std::span<const std::string_view> parameters) {
   Translator translator(operation.names, source);
   Query result;
   result.source = std::move(source);
   result.base = operation.base;
+  for (const std::string_view name : parameters) {
+    result.parameters.push_back(translator.declare_parameter(name));
+  }
   Scope scope;
   result.select.where = translator.group(scope, *operation.where);
   for (const syntax::Variable column : columns) {

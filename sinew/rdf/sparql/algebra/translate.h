@@ -16,6 +16,7 @@ Query translate(const syntax::Query& query, std::span<const std::string_view> pa
 // order in which `columns` lists them.
 Query translate_where(const syntax::Operation& operation,
                       std::shared_ptr<const syntax::Source> source,
-                      const std::vector<syntax::Variable>& columns);
+                      const std::vector<syntax::Variable>& columns,
+                      std::span<const std::string_view> parameters = {});
 
 }  // namespace sinew::rdf::sparql::algebra

@@ -1,0 +1,254 @@
+// The inward sweep of hybrid dynamics. Each driver, and each unit constraint force, is a wrench on
+// bodies and a force at joints. At a joint that gives way, what reaches it is
+//   e = tau + S' F,
+// the joint accelerates by e / D, and F - U e / D goes on to the predecessor (Vereshchagin 1989,
+// equations b and c; for one driver alone it is the articulated-body algorithm's bias force,
+// Featherstone 2008, equation 7.28). Since all is linear in e, each effect travels by itself and
+// keeps its origin.
+#include "sinew/synthesis/effects.h"
+#include "sinew/synthesis/hybrid_steps.h"
+
+namespace sinew::synthesis {
+namespace {
+
+using algorithm::kNoIndex;
+
+constexpr std::string_view kWrench = "effect-wrench";
+
+// ---- on bodies ----
+
+// The wrench that moves the body as it moves, without what acts on it from outside.
+BlockIndex inertial_wrench(const Context& context, Id frame) {
+  const BlockIndex found = context.board.find("bias-inertial-wrench", frame);
+  return found != kNoIndex ? found : context.block("bias-own-wrench", frame);
+}
+
+// The part of gravity, of velocity, or of both in it. Where nothing is kept apart, what acts from
+// outside has been taken off already.
+BlockIndex own_wrench(const Context& context, const DriverGroup& group, const Visit& visit) {
+  const bool falls = context.reference != context.robot.root_body;
+  if (group.velocity && !context.drivers.apart)
+    return context.block("bias-own-wrench", visit.node);
+  if (!context.has("inertia", visit["body"])) return kNoIndex;
+  if (group.velocity && !falls) return inertial_wrench(context, visit.node);
+  if (group.gravity && falls) return context.block("gravity-own-wrench", visit.node);
+  if (group.velocity) return context.block("velocity-own-wrench", visit.node);
+  return kNoIndex;
+}
+
+bool needs_velocity_alone(const Context& context) {
+  return context.drivers.apart && context.reference != context.robot.root_body;
+}
+
+std::vector<BlockIndex> outer_wrenches(const Context& context, const DriverGroup& group,
+                                       Id frame) {
+  std::vector<BlockIndex> found;
+  if (!context.drivers.apart) return found;
+  for (const std::size_t index : group.wrenches) {
+    const ExternalWrench& wrench = context.wrenches[index];
+    if (wrench.body_frame == frame)
+      found.push_back(context.block("external-wrench-alone", wrench.frame));
+  }
+  return found;
+}
+
+void configure_body(Context& context, const Visit& visit) {
+  if (context.has("inertia", visit["body"]) && needs_velocity_alone(context))
+    context.make({.slot = "velocity-own-wrench",
+                  .represents = visit.node,
+                  .quantity = "wrench",
+                  .of = visit["body"],
+                  .reference = visit.node,
+                  .seen_by = visit.node});
+  const std::vector<Effect> list = effects(context);
+  for (const Effect& effect : list) {
+    const Id key = context.pair(effect.element, visit.node);
+    BlockIndex wrench = kNoIndex;
+    if (effect.group != nullptr) {
+      const std::vector<BlockIndex> outer = outer_wrenches(context, *effect.group, visit.node);
+      const BlockIndex own = own_wrench(context, *effect.group, visit);
+      if (outer.size() == 1 && own == kNoIndex) {
+        wrench = outer.front();
+      } else if (!outer.empty() || own != kNoIndex) {
+        wrench = make_effect_wrench(context, effect, "driver-wrench", visit.node, visit["body"],
+                                    visit.node);
+      }
+    } else {
+      for (const ConstraintDirection& direction : context.drivers.directions)
+        if (direction.element == effect.element &&
+            context.drivers.constraints[direction.constraint].at.body_frame == visit.node)
+          wrench = context.block("constraint-wrench", direction.element);
+    }
+    if (wrench == kNoIndex) continue;
+    // What successors have handed on already comes on top.
+    const BlockIndex before = context.board.find(kWrench, key);
+    if (before == kNoIndex) {
+      context.board.put(kWrench, key, wrench);
+      continue;
+    }
+    context.board.put("effect-wrench-of-successors", key, before);
+    context.board.put("effect-wrench-own", key, wrench);
+    context.board.put(kWrench, key,
+                      make_effect_wrench(context, effect, "effect-wrench-on-body", visit.node,
+                                         visit["body"], visit.node));
+  }
+}
+
+void compute_driver_wrench(Context& context, const Effect& effect, const Visit& visit) {
+  const BlockIndex result = effect_block(context, "driver-wrench", effect.element, visit.node);
+  if (result == kNoIndex) return;
+  std::vector<BlockIndex> outer = outer_wrenches(context, *effect.group, visit.node);
+  const BlockIndex own = own_wrench(context, *effect.group, visit);
+  // Whatever comes last writes the result.
+  BlockIndex sum = outer.empty() ? no_wrench(context, visit.node, visit["body"]) : outer.front();
+  for (std::size_t i = 1; i < outer.size(); ++i) {
+    const bool last = i + 1 == outer.size() && own == kNoIndex;
+    const std::string slot = "driver-wrench-" + std::to_string(i);
+    const BlockIndex next =
+        last ? result
+             : make_effect_wrench(context, effect, slot, visit.node, visit["body"], visit.node);
+    context.closure("accumulate-wrench", {sum, outer[i], next}, visit["body"]);
+    sum = next;
+  }
+  if (own != kNoIndex) context.closure("subtract-wrench", {sum, own, result}, visit["body"]);
+}
+
+void compute_body(Context& context, const Visit& visit) {
+  if (context.has("velocity-own-wrench", visit.node))
+    context.closure("subtract-wrench",
+                    {inertial_wrench(context, visit.node),
+                     context.block("gravity-own-wrench", visit.node),
+                     context.block("velocity-own-wrench", visit.node)},
+                    visit["body"]);
+  for (const Effect& effect : effects(context)) {
+    if (effect.group != nullptr) compute_driver_wrench(context, effect, visit);
+    const BlockIndex sum =
+        effect_block(context, "effect-wrench-on-body", effect.element, visit.node);
+    if (sum == kNoIndex) continue;
+    context.closure(
+        "accumulate-wrench",
+        {effect_block(context, "effect-wrench-of-successors", effect.element, visit.node),
+         effect_block(context, "effect-wrench-own", effect.element, visit.node), sum},
+        visit["body"]);
+  }
+}
+
+// ---- across joints ----
+
+BlockIndex given_force(const Context& context, const Effect& effect, const JointEdge& edge) {
+  if (effect.group == nullptr || !effect.group->has_joint(edge.joint)) return kNoIndex;
+  return context.board.find("force", edge.joint);
+}
+
+void configure_joint(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  for (const Effect& effect : effects(context)) {
+    const BlockIndex wrench = effect_block(context, kWrench, effect.element, edge.child);
+    const BlockIndex force = given_force(context, effect, edge);
+    if (wrench == kNoIndex && force == kNoIndex) continue;
+    if (wrench == kNoIndex)
+      context.board.put("effect-force", context.pair(effect.element, edge.joint), force);
+    else
+      make_joint_effect(context, edge, effect, "effect-force", "force");
+    if (wrench != kNoIndex && force != kNoIndex)
+      make_joint_effect(context, edge, effect, "effect-force-of-wrench", "force");
+    make_joint_effect(context, edge, effect, "effect-acceleration", "acceleration");
+    if (edge.parent == context.robot.root_frame) continue;
+    const auto make = [&](std::string_view slot, Id of, Id frame) {
+      return make_effect_wrench(context, effect, slot, edge.joint, of, frame);
+    };
+    make("effect-wrench-released", edge.successor, edge.child);
+    make("effect-wrench-at-joint", edge.successor, edge.joint_frame);
+    make("effect-wrench-at-predecessor", edge.successor, edge.parent);
+    BlockIndex before = effect_block(context, kWrench, effect.element, edge.parent);
+    if (before == kNoIndex) before = no_wrench(context, edge.parent, edge.predecessor);
+    context.board.put("effect-wrench-before", context.pair(effect.element, edge.joint), before);
+    context.board.put(kWrench, context.pair(effect.element, edge.parent),
+                      make("effect-wrench-with", edge.predecessor, edge.parent));
+  }
+}
+
+void compute_force(Context& context, const JointEdge& edge, const Effect& effect) {
+  const auto block = [&](std::string_view slot) {
+    return effect_block(context, slot, effect.element, edge.joint);
+  };
+  const BlockIndex wrench = effect_block(context, kWrench, effect.element, edge.child);
+  const BlockIndex force = given_force(context, effect, edge);
+  if (wrench != kNoIndex) {
+    const BlockIndex of_wrench =
+        force == kNoIndex ? block("effect-force") : block("effect-force-of-wrench");
+    context.closure("force-from-wrench-" + edge.kind, {wrench, of_wrench}, edge.joint);
+    if (force != kNoIndex)
+      context.closure(edge.floats() ? "add-floating-force" : "add-joint-force",
+                      {force, of_wrench, block("effect-force")}, edge.joint);
+  }
+  if (!edge.floats()) {
+    context.closure("joint-acceleration-from-drive",
+                    {block("effect-force"), context.block("unit-force", edge.joint),
+                     block("effect-acceleration")},
+                    edge.joint);
+    return;
+  }
+  // A floating base: the world behind it does not move.
+  BlockIndex inertia = context.board.find("articulated-inertia", edge.child);
+  if (inertia == kNoIndex) inertia = context.block("own-articulated-inertia", edge.child);
+  context.closure("floating-acceleration-from-force",
+                  {inertia, block("effect-force"), block("effect-acceleration")}, edge.joint);
+}
+
+void compute_joint(Context& context, const Visit& visit) {
+  const JointEdge edge(context, visit);
+  for (const Effect& effect : effects(context)) {
+    const auto block = [&](std::string_view slot) {
+      return effect_block(context, slot, effect.element, edge.joint);
+    };
+    if (block("effect-force") == kNoIndex) continue;
+    compute_force(context, edge, effect);
+    if (edge.parent == context.robot.root_frame) continue;
+    BlockIndex wrench = effect_block(context, kWrench, effect.element, edge.child);
+    if (wrench == kNoIndex) wrench = no_wrench(context, edge.child, edge.successor);
+    context.closure("release-wrench",
+                    {wrench, context.block("unit-wrench", edge.joint), block("effect-acceleration"),
+                     block("effect-wrench-released")},
+                    edge.joint);
+    context.closure("transform-wrench-to-proximal",
+                    {context.block("pose-across-joint", edge.joint),
+                     block("effect-wrench-released"), block("effect-wrench-at-joint")},
+                    edge.joint);
+    context.closure("transform-wrench-to-proximal",
+                    {context.block("placement", edge.joint), block("effect-wrench-at-joint"),
+                     block("effect-wrench-at-predecessor")},
+                    edge.joint);
+    context.closure("accumulate-wrench",
+                    {block("effect-wrench-before"), block("effect-wrench-at-predecessor"),
+                     block("effect-wrench-with")},
+                    edge.joint);
+  }
+}
+
+}  // namespace
+
+Step driver_effects_step(const MotionDrivers& drivers) {
+  std::vector<std::string> needs = {"placement",  "pose-across-joint", "unit-wrench",
+                                    "unit-force", "inertia",           "bias-own-wrench"};
+  for (const DriverGroup& group : drivers.groups) {
+    if (group.gravity && !group.velocity) needs.emplace_back("gravity-own-wrench");
+    if (!group.joints.empty() && needs.back() != "force") needs.emplace_back("force");
+  }
+  if (!drivers.constraints.empty()) needs.emplace_back("constraint-wrench");
+  return {.name = "driver-effects",
+          .purpose = "what reaches each joint of each driver and each unit constraint force",
+          .direction = Direction::kInward,
+          .expansion = std::string(kAcrossJoints),
+          .needs = needs,
+          .may_use = {"external-wrench", "external-wrench-from-base"},
+          .gives = {"effect-force"},
+          .visitors = {{Where::kNode,
+                        {std::string(kIsNotRoot)},
+                        std::string(kBodyOfNode),
+                        configure_body,
+                        compute_body},
+                       {Where::kEdge, {}, {}, configure_joint, compute_joint}}};
+}
+
+}  // namespace sinew::synthesis
