@@ -149,7 +149,6 @@ void ask_ours(benchmark::State& state, bool writer, Ask&& ask) {
 void latest(benchmark::State& state, bool writer) {
   ask_ours(state, writer, [](PreparedPose& query) { return query.latest_realtime(kLast); });
 }
-// With a writer the time that is asked for moves with the last stamp, as a user's would.
 void interpolated(benchmark::State& state, bool writer) {
   ask_ours(state, writer, [](PreparedPose& query) { return query.at_realtime(kBetween); });
 }

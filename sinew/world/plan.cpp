@@ -41,10 +41,13 @@ struct Planner {
       return *state.measurements[at].model;
     };
     if (query.choice == Choice::kMostCertain) {
-      std::stable_sort(found.begin(), found.end(), [&](Index a, Index b) {
-        const double x = model(a).standard_deviation;
-        const double y = model(b).standard_deviation;
-        return !std::isnan(x) && (std::isnan(y) || x < y);
+      // Equal ones stay as they were added: by their numbers.
+      const auto deviation = [&](Index at) {
+        const double stated = model(at).standard_deviation;
+        return std::isnan(stated) ? std::numeric_limits<double>::infinity() : stated;
+      };
+      std::sort(found.begin(), found.end(), [&](Index a, Index b) {
+        return std::pair(deviation(a), a) < std::pair(deviation(b), b);
       });
     } else if (query.choice == Choice::kByProvenance) {
       const auto rank = [&](Index at) {
@@ -53,8 +56,8 @@ struct Planner {
       };
       const auto last = static_cast<std::ptrdiff_t>(query.provenances.size());
       std::erase_if(found, [&](Index at) { return rank(at) == last; });
-      std::stable_sort(found.begin(), found.end(),
-                       [&](Index a, Index b) { return rank(a) < rank(b); });
+      std::sort(found.begin(), found.end(),
+                [&](Index a, Index b) { return std::pair(rank(a), a) < std::pair(rank(b), b); });
     }
     return found;
   }
