@@ -182,7 +182,7 @@ void report(Host& host, const runtime::Recorder* recorder, bool timed) {
   if (recorder != nullptr) std::cerr << "log        " << to_string(recorder->report()) << "\n";
 }
 
-// True when it ended by itself.
+// Until it has run for as long as asked, is interrupted, or faults.
 void run_clocked(Host& host) {
   host.start();
   std::signal(SIGINT, interrupt);

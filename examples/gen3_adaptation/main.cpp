@@ -77,7 +77,7 @@ struct Row {
   std::array<double, 12> pose;  // row-major 3x4
 };
 
-// The pose's columns stand last in the log; those before are named.
+// The hand's pose has the columns pose.FRAME[0] to pose.FRAME[11].
 std::vector<Row> read_log(const fs::path& path) {
   std::ifstream file(path);
   std::string line;

@@ -8,8 +8,8 @@
 
 namespace sinew::runtime {
 
-// Something worth telling, noted in the loop without allocating. Texts belong to executables, which
-// outlive the events that name them only as long as they run: `about` is copied, cut to its size.
+// Something worth telling, noted in the loop without allocating: what it is about is copied, and cut
+// where it is too long, since the program that names it may be gone when somebody reads it.
 struct Event {
   enum class Kind : std::uint8_t {
     kStale,       // a measurement is older than its limit: value is its age [s]

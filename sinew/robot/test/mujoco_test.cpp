@@ -71,7 +71,6 @@ TEST(Mujoco, FollowsTheHandOfItsOperator) {
                      {"pushed down", 1.2, Vector{0, 0, -0.1}, {}},
                      {"held", 1.5, Vector{0, 0, 0}, {}}}};
   const auto robot = lockstep(gen3, scene);
-  // Torques for the sum of gravity and nothing else; the pose of the frame comes along.
   const auto host = gen3.host("gravity", "mujoco", robot);
   host->configure();
   host->step(100);

@@ -50,7 +50,7 @@ class RuntimeTest : public testing::Test {
     graph::Store store;
     graph::Id algorithm;
   };
-  // `other_unit`: the state has another prototype.
+  // `other_prototype`: of a prismatic joint, so that forces are in newtons.
   static std::unique_ptr<Model> model(double first = 2.0, bool other_prototype = false) {
     using algorithm::Role;
     auto result = std::make_unique<Model>();
