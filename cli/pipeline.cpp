@@ -132,6 +132,23 @@ void normalise(Models& models, const synthesis::Query& query) {
   model::write(tree, models.store);
 }
 
+// Synthesis knows nodes, not files: what is at fault gets the place where it was written.
+synthesis::Synthesis synthesised(Models& models, const synthesis::Query& query) {
+  try {
+    return synthesis::synthesise(models.store, query, &models.places);
+  } catch (const Error& error) {
+    Report report;
+    for (Problem problem : error.problems()) {
+      const graph::Id node =
+          problem.place.file.empty() ? models.store.terms().find_iri(problem.iri) : graph::Id{};
+      if (node) problem.place = models.places.find(node);
+      report.add(std::move(problem));
+    }
+    report.throw_if_errors();
+    throw;
+  }
+}
+
 }  // namespace
 
 graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOptions& options,
@@ -149,7 +166,7 @@ graph::Id algorithm_of(Models& models, const synthesis::Query& asked,
   synthesis::Query query = asked;
   if (!query.task) query.task = task_of(models);
   normalise(models, query);
-  synthesis::Synthesis synthesis = synthesis::synthesise(models.store, query, &models.places);
+  synthesis::Synthesis synthesis = synthesised(models, query);
   for (const std::string& note : synthesis.notes) print_note(note);
   if (why != nullptr) *why = std::move(synthesis.why);
   return synthesis.algorithm;

@@ -321,7 +321,8 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 TEST(TaskSolvers, RefuseWhatIsNotOnTheRobot) {
   const std::string task = damper() + "," + solver("RecursiveNewtonEulerAlgorithm", kPush);
   expect_refused(replaced(task, R"("as-seen-by": "arm:frame/base")", R"("as-seen-by": "t:moon")"),
-                 {}, {"task/twist-coordinates", "task/moon", "no frame of the robot"});
+                 {},
+                 {"task.jsonld:", "task/twist-coordinates", "task/moon", "no frame of the robot"});
   expect_refused(
       replaced(task, R"("as-seen-by": "arm:frame/base")", R"("as-seen-by": "arm:frame/upper")"), {},
       {"task/twist-coordinates", "moves with another body"});
