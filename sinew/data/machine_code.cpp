@@ -164,16 +164,22 @@ std::shared_ptr<const void> MachineCode::finish() {
   for (const auto& [at, which] : uses_) set(at, pool + 16 * which);
 
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  const std::size_t size = (bytes_.size() + page - 1) / page * page;
+  // Before a function's code, clang's sanitizer for calls through pointers looks for its type: what
+  // lies there has to be readable, and no type.
+  constexpr std::size_t kBefore = 64;
+  static_assert(kBefore % kPoolAlignment == 0);
+  const std::size_t size = (kBefore + bytes_.size() + page - 1) / page * page;
   void* const place =
       mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (place == MAP_FAILED) return nullptr;
-  std::memcpy(place, bytes_.data(), bytes_.size());
+  char* const code = static_cast<char*>(place) + kBefore;
+  std::memset(place, 0xcc, kBefore);
+  std::memcpy(code, bytes_.data(), bytes_.size());
   if (mprotect(place, size, PROT_READ | PROT_EXEC) != 0) {
     munmap(place, size);
     return nullptr;
   }
-  return {place, [size](void* code) { munmap(code, size); }};
+  return {code, [place, size](void*) { munmap(place, size); }};
 }
 
 }  // namespace sinew::data
