@@ -11,8 +11,8 @@
 // Writers are never held up: nobody is told while writing. Instead one thread *looks* (`look`, or a
 // Watch), compares with what it saw at the last look, and hands over what happened: to a queue,
 // which the listener's thread runs, or to an executor of the listener's. Several writes between two
-// looks are one event that says how many they were. So the delay is at most the time between looks,
-// and the work is that of the looks, whatever the writers do.
+// looks are one event that says how many they were. So things are noticed at the next look, and the
+// work is that of the looks, whatever the writers do.
 //
 // Threads: all of it may be called from any thread; looks take turns. A condition or callback may
 // add and remove triggers, and may ask and write the world, but must not look, and must not throw.
