@@ -1,0 +1,281 @@
+#include "sinew/world/space.h"
+
+#include <algorithm>
+
+#include "sinew/world/impl.h"
+#include "sinew/world/refuse.h"
+
+namespace sinew::world {
+namespace {
+
+Bounds3 join(const Bounds3& a, const Bounds3& b) {
+  return {{std::min(a.minimum.x, b.minimum.x), std::min(a.minimum.y, b.minimum.y),
+           std::min(a.minimum.z, b.minimum.z)},
+          {std::max(a.maximum.x, b.maximum.x), std::max(a.maximum.y, b.maximum.y),
+           std::max(a.maximum.z, b.maximum.z)}};
+}
+Bounds3 bounds_of(const std::vector<Shape>& shapes) {
+  Bounds3 box = bounds(shapes.front());
+  for (const Shape& shape : shapes) box = join(box, bounds(shape));
+  return box;
+}
+Bounds3 grown(const Bounds3& box, double by) {
+  const Vector3 margin = {by, by, by};
+  return {box.minimum - margin, box.maximum + margin};
+}
+bool holds(const Bounds3& outer, const Bounds3& inner) {
+  return outer.minimum.x <= inner.minimum.x && outer.minimum.y <= inner.minimum.y &&
+         outer.minimum.z <= inner.minimum.z && outer.maximum.x >= inner.maximum.x &&
+         outer.maximum.y >= inner.maximum.y && outer.maximum.z >= inner.maximum.z;
+}
+bool same(const Pose& a, const Pose& b) {
+  return a.p.x == b.p.x && a.p.y == b.p.y && a.p.z == b.p.z && a.q.x == b.q.x && a.q.y == b.q.y &&
+         a.q.z == b.q.z && a.q.w == b.q.w;
+}
+
+bool matches(const std::vector<Shape>& body, const std::vector<Shape>& region, Match match) {
+  if (match == Match::kTouching) {
+    return std::any_of(body.begin(), body.end(), [&](const Shape& shape) {
+      return std::any_of(region.begin(), region.end(),
+                         [&](const Shape& part) { return touch(shape, part); });
+    });
+  }
+  return std::all_of(body.begin(), body.end(), [&](const Shape& shape) {
+    return std::any_of(region.begin(), region.end(), [&](const Shape& part) {
+      return protrusion(shape, part) <= kTouchingDistance;
+    });
+  });
+}
+
+void check(const std::vector<Shape>& shapes, std::string_view iri) {
+  if (shapes.empty() || shapes.size() > kMaximumBodyShapes) {
+    refuse(iri, "has " + std::to_string(shapes.size()) + " shapes",
+           "1 to " + std::to_string(kMaximumBodyShapes));
+  }
+  for (const Shape& shape : shapes) {
+    check_shape(shape.geometry, iri);
+    Pose placement = shape.placement;
+    if (!normalise(placement)) {
+      refuse(iri, "the placement of a shape is no pose", "finite numbers and a unit quaternion");
+    }
+  }
+}
+
+}  // namespace
+
+Space::Space(const World& world, FrameId frame, Policy policy)
+    : world_(&world), frame_(frame), policy_(policy) {
+  world::alive(world.impl(), world.state(), frame);
+}
+
+BodyId Space::insert(Body body) {
+  check(body.described, body.name);
+  if (by_name_.contains(body.name)) {
+    refuse(body.name, "has shapes already", "all of its shapes at once, or remove the body first");
+  }
+  const auto index = static_cast<Index>(bodies_.size());
+  by_name_.emplace(body.name, index);
+  body.alive = true;
+  body.placed = body.described;
+  bodies_.push_back(std::move(body));
+  return {index};
+}
+
+BodyId Space::add(ObjectId object, std::vector<Shape> shapes) {
+  world::alive(world_->impl(), world_->state(), object);
+  return insert({.name = world_->name(object),
+                 .object = object,
+                 .frame = world_->frame_of(object),
+                 .described = std::move(shapes)});
+}
+
+BodyId Space::add(FrameId frame, std::vector<Shape> shapes) {
+  world::alive(world_->impl(), world_->state(), frame);
+  return insert({.name = world_->name(frame), .frame = frame, .described = std::move(shapes)});
+}
+
+BodyId Space::add_area(std::string_view iri, FrameId frame, std::vector<Shape> shapes) {
+  world::alive(world_->impl(), world_->state(), frame);
+  return insert(
+      {.name = std::string(iri), .area = true, .frame = frame, .described = std::move(shapes)});
+}
+
+const Space::Body& Space::alive(BodyId body) const {
+  if (body.index >= bodies_.size() || !bodies_[body.index].alive) {
+    refuse({}, "body " + std::to_string(body.index) + " is not in this space",
+           "a body of this space that was not removed");
+  }
+  return bodies_[body.index];
+}
+
+void Space::take_out(Body& body) {
+  if (body.entry.index != kNone) index_.remove(body.entry);
+  body.entry.index = kNone;
+  body.is_placed = false;
+}
+
+void Space::remove(BodyId id) {
+  alive(id);
+  Body& body = bodies_[id.index];
+  take_out(body);
+  by_name_.erase(body.name);
+  body.alive = false;
+}
+
+// The body's shapes where its frame is now; its box in the index, where it has left the old one.
+void Space::place(Body& body, Index index, Update& counts) {
+  const Place& place = places_.at(body.frame.index);
+  if (!place.answer) {
+    take_out(body);
+    ++counts.unplaced;
+    return;
+  }
+  if (body.is_placed && !place.moved) return;
+  ++counts.moved;
+  for (std::size_t i = 0; i < body.described.size(); ++i) {
+    body.placed[i].placement = compose(place.answer.pose, body.described[i].placement);
+  }
+  body.is_placed = true;
+  if (body.area) return;
+  const Bounds3 box = bounds_of(body.placed);
+  if (body.entry.index != kNone && holds(body.entry.box, box)) return;
+  ++counts.reinserted;
+  if (body.entry.index != kNone) index_.remove(body.entry);
+  body.entry = {grown(box, kIndexMargin), index};
+  index_.insert(body.entry);
+}
+
+Space::Update Space::update(Stamp now) {
+  const std::uint64_t structure = world_->structure_version();
+  const State state = world_->state();
+  as_of_ = now;
+
+  for (Body& body : bodies_) {  // what has gone, and what is attached elsewhere
+    if (!body.alive || !body.object) continue;
+    const ObjectRecord& object = state.objects[body.object.index];
+    if (!object.alive) {
+      take_out(body);
+      by_name_.erase(body.name);
+      body.alive = false;
+    } else if (object.frame != body.frame.index) {
+      body.frame = {object.frame};
+      body.is_placed = false;
+    }
+  }
+
+  const auto read = [&](Place& place) {
+    const bool constant = place.query.measured_steps() == 0 && place.answer.status == Status::kOk;
+    if (constant && place.read_at_structure == structure) {
+      place.moved = false;
+      return;
+    }
+    const PoseAnswer before = place.answer;
+    place.answer = place.query.latest(now);
+    place.moved = before.status != place.answer.status || !same(before.pose, place.answer.pose);
+    place.read_at_structure = structure;
+  };
+  for (auto& [frame, place] : places_) read(place);
+  for (const Body& body : bodies_) {
+    if (!body.alive || places_.contains(body.frame.index)) continue;
+    const auto made =
+        places_.emplace(body.frame.index,
+                        Place{.query = world_->prepare_pose(
+                                  {.of = body.frame, .with_respect_to = frame_, .policy = policy_}),
+                              .answer = {}});
+    read(made.first->second);
+  }
+
+  Update counts;
+  if (index_.size() == 0) {  // many at once: packed
+    std::vector<SpaceIndex::Entry> entries;
+    for (Index i = 0; i < bodies_.size(); ++i) {
+      Body& body = bodies_[i];
+      const Place* const place = body.alive ? &places_.at(body.frame.index) : nullptr;
+      if (!place || body.area || !place->answer) continue;
+      std::vector<Shape> shapes = body.described;
+      for (Shape& shape : shapes) shape.placement = compose(place->answer.pose, shape.placement);
+      body.entry = {grown(bounds_of(shapes), kIndexMargin), i};
+      body.is_placed = false;
+      entries.push_back(body.entry);
+    }
+    index_.fill(entries);
+    counts.reinserted = entries.size();
+  }
+  for (Index i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].alive) place(bodies_[i], i, counts);
+  }
+  return counts;
+}
+
+RegionAnswer Space::search(const std::vector<Shape>& region, Match match) const {
+  RegionAnswer answer{.status = Status::kOk, .bodies = {}, .unplaced = {}};
+  const Bounds3 box = grown(bounds_of(region), kTouchingDistance);
+  std::vector<Index> candidates;
+  index_.search(box, candidates);
+  std::sort(candidates.begin(), candidates.end());
+  for (const Index i : candidates) {
+    if (matches(bodies_[i].placed, region, match)) answer.bodies.push_back({i});
+  }
+  for (Index i = 0; i < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    if (body.alive && !body.area && !body.is_placed) answer.unplaced.push_back({i});
+  }
+  return answer;
+}
+
+RegionAnswer Space::within(FrameId frame, const std::vector<Shape>& region, Match match) const {
+  check(region, "the region");
+  const PoseAnswer at = pose_of(frame);
+  if (!at) return {.status = at.status, .bodies = {}, .unplaced = {}};
+  std::vector<Shape> seen;
+  for (const Shape& shape : region) seen.push_back(placed(at.pose, shape));
+  return search(seen, match);
+}
+
+RegionAnswer Space::within(BodyId id, Match match) const {
+  const Body& area = alive(id);
+  if (!area.is_placed) {  // without a pose, or added since the last update
+    const Status status = pose(id).status;
+    return {
+        .status = status == Status::kOk ? Status::kNoData : status, .bodies = {}, .unplaced = {}};
+  }
+  RegionAnswer answer = search(area.placed, match);
+  std::erase(answer.bodies, id);
+  return answer;
+}
+
+RegionAnswer Space::within(std::string_view area_iri, Match match) const {
+  const BodyId area = find(area_iri);
+  if (!area) refuse(area_iri, "is no area or body of this space", "add_area, or add");
+  return within(area, match);
+}
+
+BodyId Space::find(std::string_view iri) const {
+  const auto found = by_name_.find(std::string(iri));
+  return found == by_name_.end() ? BodyId{} : BodyId{found->second};
+}
+
+std::string Space::name(BodyId body) const { return alive(body).name; }
+
+std::vector<BodyId> Space::bodies() const {
+  std::vector<BodyId> result;
+  for (Index i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].alive && !bodies_[i].area) result.push_back({i});
+  }
+  return result;
+}
+
+const PoseAnswer& Space::pose(BodyId body) const {
+  static const PoseAnswer kNever;  // not updated since it was added
+  const auto found = places_.find(alive(body).frame.index);
+  return found == places_.end() ? kNever : found->second.answer;
+}
+
+const std::vector<Shape>& Space::shapes(BodyId body) const { return alive(body).placed; }
+
+PoseAnswer Space::pose_of(FrameId frame) const {
+  return world_->prepare_pose({.of = frame, .with_respect_to = frame_, .policy = policy_})
+      .latest(as_of_);
+}
+
+}  // namespace sinew::world

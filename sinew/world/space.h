@@ -1,0 +1,120 @@
+// Where things are: shapes of objects, of frames and of named areas, placed in one frame by the
+// world's poses, and which of them are within a region.
+//
+//   Space space(world, cell);                            // everything is placed in `cell`
+//   const BodyId part = space.add(object, {{Box{{0.1, 0.1, 0.2}}, {}}});
+//   space.add_area("http://cell/storage-magazine", shelf, {{Box{{0.6, 0.4, 0.5}}, {}}});
+//   space.update(now);
+//   space.within("http://cell/storage-magazine", Match::kInside).bodies
+//
+// `update` reads the pose of every frame that can move and moves in the index what has left its
+// box; queries answer as of the last update. Poses are read one frame after the other, all for the
+// same `now`. What has no pose is in no answer and is named in each: `unplaced`.
+//
+// One Space is used by one thread at a time; the world may be written meanwhile by any other. The
+// world stays where it is for as long as the Space lives. Structural edits are followed: objects
+// that are removed leave it, and those that are attached elsewhere move, with the next update.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "sinew/world/shape.h"
+#include "sinew/world/space_index.h"
+#include "sinew/world/world.h"
+
+namespace sinew::world {
+
+struct BodyId {
+  Index index = kNone;
+  constexpr explicit operator bool() const { return index != kNone; }
+  friend constexpr auto operator<=>(BodyId, BodyId) = default;
+};
+
+enum class Match : std::uint8_t {
+  kTouching,  // a shape of the body and one of the region overlap or touch
+  kInside,    // every shape of the body is inside one shape of the region
+};
+
+struct RegionAnswer {
+  Status status = Status::kNoData;  // of the region's own pose; kOk where there is an answer
+  std::vector<BodyId> bodies;       // in the order in which they were added
+  std::vector<BodyId> unplaced;     // bodies whose pose is not known
+};
+
+// A box in the index is this much larger than the body on every side [m]: what moves by less stays
+// where it is in the index.
+inline constexpr double kIndexMargin = 0.05;
+inline constexpr std::size_t kMaximumBodyShapes = 1000;
+
+class Space {
+ public:
+  // Where a pose has expired, Policy::kFilter leaves the body unplaced.
+  Space(const World& world, FrameId frame, Policy policy = Policy::kInform);
+
+  // Shapes are described in the frame of the object, or in the given one. A body has the IRI of its
+  // object or frame, which has one body at most. Throws Error for shapes that are none.
+  BodyId add(ObjectId object, std::vector<Shape> shapes);
+  BodyId add(FrameId frame, std::vector<Shape> shapes);
+  // Areas are regions with a name: they are asked for, and are in no answer.
+  BodyId add_area(std::string_view iri, FrameId frame, std::vector<Shape> shapes);
+  void remove(BodyId body);
+
+  struct Update {
+    std::size_t moved = 0;       // bodies whose pose is another one than before
+    std::size_t reinserted = 0;  // of these, how many the index had to move
+    std::size_t unplaced = 0;
+  };
+  Update update(Stamp now);
+
+  RegionAnswer within(FrameId frame, const std::vector<Shape>& region, Match match) const;
+  RegionAnswer within(BodyId area, Match match) const;
+  RegionAnswer within(std::string_view area_iri, Match match) const;  // Error where there is none
+
+  BodyId find(std::string_view iri) const;  // bodies and areas; index kNone where there is none
+  std::string name(BodyId body) const;
+  std::vector<BodyId> bodies() const;  // without areas
+  FrameId frame() const { return frame_; }
+  Stamp as_of() const { return as_of_; }
+  // Of the last update: the body's frame in frame(), and its shapes seen from there.
+  const PoseAnswer& pose(BodyId body) const;
+  const std::vector<Shape>& shapes(BodyId body) const;
+  // Another frame of the world in frame(), at the time of the last update.
+  PoseAnswer pose_of(FrameId frame) const;
+
+ private:
+  struct Place {  // a frame that bodies are attached to
+    PreparedPose query;
+    PoseAnswer answer;
+    bool moved = false;
+    std::uint64_t read_at_structure = 0;
+  };
+  struct Body {
+    std::string name;
+    bool alive = false, area = false;
+    ObjectId object = {};  // none: attached to the frame itself
+    FrameId frame;
+    std::vector<Shape> described, placed = {};
+    bool is_placed = false;
+    SpaceIndex::Entry entry = {};  // index kNone: not in the index
+  };
+  BodyId insert(Body body);
+  const Body& alive(BodyId body) const;
+  void place(Body& body, Index index, Update& counts);
+  void take_out(Body& body);
+  RegionAnswer search(const std::vector<Shape>& region, Match match) const;
+
+  const World* world_;
+  FrameId frame_;
+  Policy policy_;
+  Stamp as_of_;
+  std::vector<Body> bodies_;
+  std::unordered_map<std::string, Index> by_name_;
+  std::unordered_map<Index, Place> places_;  // by frame
+  SpaceIndex index_;
+};
+
+}  // namespace sinew::world
