@@ -115,7 +115,7 @@ struct Middle {
   Vector3 operator()(const MeshBounds& mesh) const { return 0.5 * (mesh.minimum + mesh.maximum); }
   Vector3 operator()(const Polygon& polygon) const {
     const Geometry geometry = polygon;
-    const Bounds3 box = bounds({geometry, {}});
+    const Bounds3 box = bounds(Shape{geometry, {}});
     return 0.5 * (box.minimum + box.maximum);
   }
 };
@@ -271,6 +271,18 @@ Bounds3 bounds(const Shape& shape) {
   return {
       {support(shape, {-1, 0, 0}).x, support(shape, {0, -1, 0}).y, support(shape, {0, 0, -1}).z},
       {support(shape, {1, 0, 0}).x, support(shape, {0, 1, 0}).y, support(shape, {0, 0, 1}).z}};
+}
+
+Bounds3 bounds(const std::vector<Shape>& shapes) {
+  Bounds3 all = bounds(shapes.front());
+  for (const Shape& shape : shapes) {
+    const auto [low, high] = bounds(shape);
+    all.minimum = {std::min(all.minimum.x, low.x), std::min(all.minimum.y, low.y),
+                   std::min(all.minimum.z, low.z)};
+    all.maximum = {std::max(all.maximum.x, high.x), std::max(all.maximum.y, high.y),
+                   std::max(all.maximum.z, high.z)};
+  }
+  return all;
 }
 
 double protrusion(const Shape& a, const Shape& b) {

@@ -61,6 +61,7 @@ Shape placed(const Pose& X_AB, const Shape& shape_B);
 Vector3 support(const Shape& shape, const Vector3& direction);
 Vector3 middle(const Shape& shape);  // of its bounds along its own axes
 Bounds3 bounds(const Shape& shape);
+Bounds3 bounds(const std::vector<Shape>& shapes);  // of all; at least one
 double distance(const Shape& a, const Shape& b);
 double protrusion(const Shape& a, const Shape& b);  // negative: inside with room to spare
 inline bool touch(const Shape& a, const Shape& b) { return distance(a, b) <= kTouchingDistance; }

@@ -8,17 +8,6 @@
 namespace sinew::world {
 namespace {
 
-Bounds3 join(const Bounds3& a, const Bounds3& b) {
-  return {{std::min(a.minimum.x, b.minimum.x), std::min(a.minimum.y, b.minimum.y),
-           std::min(a.minimum.z, b.minimum.z)},
-          {std::max(a.maximum.x, b.maximum.x), std::max(a.maximum.y, b.maximum.y),
-           std::max(a.maximum.z, b.maximum.z)}};
-}
-Bounds3 bounds_of(const std::vector<Shape>& shapes) {
-  Bounds3 box = bounds(shapes.front());
-  for (const Shape& shape : shapes) box = join(box, bounds(shape));
-  return box;
-}
 Bounds3 grown(const Bounds3& box, double by) {
   const Vector3 margin = {by, by, by};
   return {box.minimum - margin, box.maximum + margin};
@@ -137,7 +126,7 @@ void Space::place(Body& body, Index index, Update& counts) {
   }
   body.is_placed = true;
   if (body.area) return;
-  const Bounds3 box = bounds_of(body.placed);
+  const Bounds3 box = bounds(body.placed);
   if (body.entry.index != kNone && holds(body.entry.box, box)) return;
   ++counts.reinserted;
   if (body.entry.index != kNone) index_.remove(body.entry);
@@ -194,7 +183,7 @@ Space::Update Space::update(Stamp now) {
       if (!place || body.area || !place->answer) continue;
       std::vector<Shape> shapes = body.described;
       for (Shape& shape : shapes) shape.placement = compose(place->answer.pose, shape.placement);
-      body.entry = {grown(bounds_of(shapes), kIndexMargin), i};
+      body.entry = {grown(bounds(shapes), kIndexMargin), i};
       body.is_placed = false;
       entries.push_back(body.entry);
     }
@@ -209,7 +198,7 @@ Space::Update Space::update(Stamp now) {
 
 RegionAnswer Space::search(const std::vector<Shape>& region, Match match) const {
   RegionAnswer answer{.status = Status::kOk, .bodies = {}, .unplaced = {}};
-  const Bounds3 box = grown(bounds_of(region), kTouchingDistance);
+  const Bounds3 box = grown(bounds(region), kTouchingDistance);
   std::vector<Index> candidates;
   index_.search(box, candidates);
   std::sort(candidates.begin(), candidates.end());
@@ -234,11 +223,7 @@ RegionAnswer Space::within(FrameId frame, const std::vector<Shape>& region, Matc
 
 RegionAnswer Space::within(BodyId id, Match match) const {
   const Body& area = alive(id);
-  if (!area.is_placed) {  // without a pose, or added since the last update
-    const Status status = pose(id).status;
-    return {
-        .status = status == Status::kOk ? Status::kNoData : status, .bodies = {}, .unplaced = {}};
-  }
+  if (!area.is_placed) return {.status = status(id), .bodies = {}, .unplaced = {}};
   RegionAnswer answer = search(area.placed, match);
   std::erase(answer.bodies, id);
   return answer;
@@ -272,6 +257,15 @@ const PoseAnswer& Space::pose(BodyId body) const {
 }
 
 const std::vector<Shape>& Space::shapes(BodyId body) const { return alive(body).placed; }
+
+FrameId Space::frame_of(BodyId body) const { return alive(body).frame; }
+bool Space::is_placed(BodyId body) const { return alive(body).is_placed; }
+
+Status Space::status(BodyId body) const {
+  if (alive(body).is_placed) return Status::kOk;
+  const Status of_frame = pose(body).status;
+  return of_frame == Status::kOk ? Status::kNoData : of_frame;  // added since the last update
+}
 
 PoseAnswer Space::pose_of(FrameId frame) const {
   return world_->prepare_pose({.of = frame, .with_respect_to = frame_, .policy = policy_})

@@ -78,10 +78,14 @@ class Space {
   std::string name(BodyId body) const;
   std::vector<BodyId> bodies() const;  // without areas
   FrameId frame() const { return frame_; }
+  const World& world() const { return *world_; }
   Stamp as_of() const { return as_of_; }
   // Of the last update: the body's frame in frame(), and its shapes seen from there.
   const PoseAnswer& pose(BodyId body) const;
   const std::vector<Shape>& shapes(BodyId body) const;
+  FrameId frame_of(BodyId body) const;
+  bool is_placed(BodyId body) const;
+  Status status(BodyId body) const;  // kOk when it is placed, or why it is not
   // Another frame of the world in frame(), at the time of the last update.
   PoseAnswer pose_of(FrameId frame) const;
 
