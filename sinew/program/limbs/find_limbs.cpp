@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "sinew/program/kernels.h"
 
@@ -102,8 +103,13 @@ Limbs find_limbs(const Program& program) {
   std::map<std::vector<Colour>, std::vector<std::uint32_t>> alike;
   for (const std::uint32_t set : first_seen) {
     auto& closures = limbs[set];
-    std::stable_sort(closures.begin(), closures.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return colour[a] < colour[b]; });
+    // The schedule's order among equals.
+    std::vector<std::pair<Colour, std::uint32_t>> keyed;
+    for (std::uint32_t at = 0; at < closures.size(); ++at)
+      keyed.push_back({colour[closures[at]], at});
+    std::sort(keyed.begin(), keyed.end());
+    const std::vector<std::uint32_t> scheduled = std::exchange(closures, {});
+    for (const auto& [unused, at] : keyed) closures.push_back(scheduled[at]);
     std::vector<Colour> key;
     for (const std::uint32_t index : closures) key.push_back(colour[index]);
     alike[key].push_back(set);

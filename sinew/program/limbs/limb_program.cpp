@@ -115,10 +115,13 @@ class Recorder {
       order.push_back(u);
     };
     for (std::uint32_t u = 0; u < units_.size(); ++u) visit(u, visit);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> levels;  // and place in `order`
+    for (std::uint32_t at = 0; at < order.size(); ++at) {
+      levels.push_back({units_[order[at]].level, at});
+    }
+    std::sort(levels.begin(), levels.end());
     std::vector<Unit> sorted;
-    for (const std::uint32_t u : order) sorted.push_back(std::move(units_[u]));
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [](const Unit& a, const Unit& b) { return a.level < b.level; });
+    for (const auto& [unused, at] : levels) sorted.push_back(std::move(units_[order[at]]));
     units_ = std::move(sorted);
   }
 

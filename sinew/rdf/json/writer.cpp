@@ -153,7 +153,9 @@ std::u16string utf16(std::string_view text) {
 
 void append_canonical(std::string& out, const Value& value) {
   if (value.is_number()) {
-    out += ecmascript_number(value.number());
+    // A number that no double can hold has no canonical form: it stays as it was written.
+    const double number = value.number();
+    out += std::isfinite(number) ? ecmascript_number(number) : std::string(value.text());
   } else if (value.is_array()) {
     out += '[';
     for (std::size_t i = 0; i < value.items().size(); ++i) {

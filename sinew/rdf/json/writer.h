@@ -16,7 +16,8 @@ std::string to_text(const Value& value);
 std::string to_pretty_text(const Value& value, std::size_t width = 100);
 
 // The JSON Canonicalization Scheme: keys sorted by UTF-16 code units, numbers as ECMAScript prints
-// them, no spaces.
+// them (as they were written where no double can hold them: the scheme has nothing for them), no
+// spaces.
 std::string to_canonical_text(const Value& value);
 
 // A finite number as ECMAScript prints it (ECMA-262, Number::toString).

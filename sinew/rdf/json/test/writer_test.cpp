@@ -44,6 +44,11 @@ TEST(JsonWriter, CanonicalFormSortsKeysByUtf16AndNormalisesNumbers) {
             "{\"\\r\":2,\"1\":4,\"\xC2\x80\":6,\"ö\":7,\"€\":1,\"😀\":5,\"\xEF\xAC\xB3\":3}");
 }
 
+TEST(JsonWriter, CanonicalFormKeepsNumbersBeyondDoublesAsTheyWereWritten) {
+  const Document document = read("[1E30000000, -1e400, 1e308]");
+  EXPECT_EQ(to_canonical_text(document.root), "[1E30000000,-1e400,1e+308]");
+}
+
 TEST(JsonWriter, PrettyTextKeepsShortThingsOnOneLine) {
   const Document document =
       read(R"({"a":[1,2,3],"b":{"c":"d"},"e":[[1,0],[0,1]],"f":[],"g":{}})", "f");
