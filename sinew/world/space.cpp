@@ -159,7 +159,10 @@ Space::Update Space::update(Stamp now) {
       return;
     }
     const PoseAnswer before = place.answer;
+    // Asked the other way round: ways are searched from `with_respect_to`, and a body's frame has
+    // few relations where the space's may have one for every body.
     place.answer = place.query.latest(now);
+    place.answer.pose = invert(place.answer.pose);
     place.moved = before.status != place.answer.status || !same(before.pose, place.answer.pose);
     place.read_at_structure = structure;
   };
@@ -169,7 +172,7 @@ Space::Update Space::update(Stamp now) {
     const auto made =
         places_.emplace(body.frame.index,
                         Place{.query = world_->prepare_pose(
-                                  {.of = body.frame, .with_respect_to = frame_, .policy = policy_}),
+                                  {.of = frame_, .with_respect_to = body.frame, .policy = policy_}),
                               .answer = {}});
     read(made.first->second);
   }
