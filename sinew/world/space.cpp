@@ -66,6 +66,7 @@ BodyId Space::insert(Body body) {
   by_name_.emplace(body.name, index);
   body.alive = true;
   body.placed = body.described;
+  if (!body.area) unplaced_.push_back({index});
   bodies_.push_back(std::move(body));
   return {index};
 }
@@ -109,6 +110,7 @@ void Space::remove(BodyId id) {
   take_out(body);
   by_name_.erase(body.name);
   body.alive = false;
+  std::erase(unplaced_, id);
 }
 
 // The body's shapes where its frame is now; its box in the index, where it has left the old one.
@@ -193,24 +195,24 @@ Space::Update Space::update(Stamp now) {
     index_.fill(entries);
     counts.reinserted = entries.size();
   }
+  unplaced_.clear();
   for (Index i = 0; i < bodies_.size(); ++i) {
-    if (bodies_[i].alive) place(bodies_[i], i, counts);
+    Body& body = bodies_[i];
+    if (!body.alive) continue;
+    place(body, i, counts);
+    if (!body.area && !body.is_placed) unplaced_.push_back({i});
   }
   return counts;
 }
 
 RegionAnswer Space::search(const std::vector<Shape>& region, Match match) const {
-  RegionAnswer answer{.status = Status::kOk, .bodies = {}, .unplaced = {}};
+  RegionAnswer answer{.status = Status::kOk, .bodies = {}, .unplaced = unplaced_};
   const Bounds3 box = grown(bounds(region), kTouchingDistance);
   std::vector<Index> candidates;
   index_.search(box, candidates);
   std::sort(candidates.begin(), candidates.end());
   for (const Index i : candidates) {
     if (matches(bodies_[i].placed, region, match)) answer.bodies.push_back({i});
-  }
-  for (Index i = 0; i < bodies_.size(); ++i) {
-    const Body& body = bodies_[i];
-    if (body.alive && !body.area && !body.is_placed) answer.unplaced.push_back({i});
   }
   return answer;
 }

@@ -116,6 +116,7 @@ class Space {
   Policy policy_;
   Stamp as_of_;
   std::vector<Body> bodies_;
+  std::vector<BodyId> unplaced_;  // bodies, not areas, that have no pose; in their order
   std::unordered_map<std::string, Index> by_name_;
   std::unordered_map<Index, Place> places_;  // by frame
   SpaceIndex index_;
