@@ -14,6 +14,9 @@ namespace {
 // More lanes than a vector register has would be several vectors: that saves little.
 constexpr std::uint32_t kMaximumLanes = 8;
 constexpr double kLeastSaving = 0.2;
+// Every joint of a serial arm looks like the others as far as its position alone goes: limbs of so
+// few closures do not pay, and are not worth recording to find that out.
+constexpr std::size_t kLeastClosures = 4;
 
 using Sources = std::vector<LimbSource>;  // one for each lane
 
@@ -364,9 +367,12 @@ std::optional<LimbProgram> limb_program(const Program& program, const OperationC
   // A state has two values in one evaluation, before and after it is written: order matters.
   if (interface_of(program).state_size > 0) return std::nullopt;
   Limbs limbs = find_limbs(program);
-  // Groups that a vector cannot hold stay with the trunk.
+  // Groups that a vector cannot hold, or that are too small, stay with the trunk.
   for (std::uint32_t& group : limbs.group) {
-    if (group != kTrunk && limbs.groups[group].lanes > kMaximumLanes) group = kTrunk;
+    if (group != kTrunk && (limbs.groups[group].lanes > kMaximumLanes ||
+                            limbs.groups[group].closures.size() < kLeastClosures)) {
+      group = kTrunk;
+    }
   }
   if (std::all_of(limbs.group.begin(), limbs.group.end(),
                   [](std::uint32_t group) { return group == kTrunk; })) {
