@@ -11,9 +11,14 @@
 #include "output.h"
 #include "pipeline.h"
 #include "prefixes.h"
+#include "sinew/algorithm/weave.h"
 #include "sinew/backend/c_target.h"
+#include "sinew/base/error.h"
 #include "sinew/program/dead_closures.h"
+#include "sinew/program/facts.h"
 #include "sinew/program/interface.h"
+#include "sinew/rdf/results/formats.h"
+#include "sinew/rdf/results/table.h"
 #include "sinew/rdf/sparql/engine.h"
 
 namespace sinew::cli {
@@ -48,25 +53,6 @@ Json ask(Models& models, graph::Id algorithm, const std::string& text) {
     rows[name] = numbers.size() == 1 ? numbers[0] : numbers;
   }
   return rows;
-}
-
-// Closures on the longest way from an input to an output, each waiting for the one before.
-std::size_t longest_chain(const program::Program& program) {
-  std::vector<std::size_t> depth(program.variables.size(), 0);
-  std::size_t longest = 0;
-  for (const std::uint32_t index : program.schedule) {
-    std::size_t deepest = 0;
-    for (const std::uint32_t variable : program.closures[index].arguments) {
-      deepest = std::max(deepest, depth[variable]);
-    }
-    for (const std::uint32_t variable : program.closures[index].arguments) {
-      if (program.variables[variable].role == program::Role::kInternal) {
-        depth[variable] = std::max(depth[variable], deepest + 1);
-      }
-    }
-    longest = std::max(longest, deepest + 1);
-  }
-  return longest;
 }
 
 program::OperationCount operations_of(const program::Program& program) {
@@ -129,12 +115,46 @@ std::vector<std::pair<std::string, program::OperationCount>> apart(Models& model
   return programs;
 }
 
+// The answers of statistics that users write (statistics/*.rq), on the algorithm with what its
+// operators read, write and cost.
+std::string answers_of(Models& models, graph::Id algorithm, const std::vector<std::string>& weaves,
+                       const std::vector<std::string>& queries, const std::string& format) {
+  program::write_facts(models.store, algorithm);
+  for (const std::string& update : weaves)
+    algorithm::weave(models.store, algorithm, with_known_prefixes(read_input(update)), update,
+                     algorithm::Rounds::kUntilSettled);
+  std::string text;
+  for (const std::string& file : queries) {
+    rdf::sparql::QueryOptions options;
+    options.name = file;
+    const auto answer = rdf::sparql::query(models.store.view(), models.store.terms(),
+                                           with_known_prefixes(read_input(file)), options);
+    if (answer.kind == rdf::sparql::AnswerKind::kTriples)
+      throw Error(Problem{{file, 1, 0},
+                          "",
+                          "a statistic is a table",
+                          "write a SELECT or an ASK; 'sinew query' takes the others",
+                          {},
+                          {}});
+    if (queries.size() > 1 && format == "text") text += fmt::format("# {}\n", file);
+    text += format == "json"
+                ? rdf::write_results(answer.results, rdf::ResultFormat::kJson, models.store.terms())
+                : rdf::write_table(answer.results, models.store.terms(), known_prefixes());
+  }
+  return text;
+}
+
 }  // namespace
 
 int run_stats(Arguments arguments) {
   CLI::App app(
       "Count an algorithm's data, closures, floating-point operations and memory; of several "
-      "queries also what each would cost by itself (adds and multiplies).",
+      "queries also what each would cost by itself (adds and multiplies). With -q, answer "
+      "statistics "
+      "written as SPARQL (those that ship are in statistics/) on the algorithm, in which each "
+      "closure "
+      "states what it reads (sa:reads), writes (sa:writes) and costs by itself (sa:additions, "
+      "sa:multiplications, sa:divisions, sa:square-roots, sa:sines-and-cosines, sa:choices).",
       "sinew stats");
   ModelOptions models_options;
   QueryOptions query;
@@ -144,10 +164,24 @@ int run_stats(Arguments arguments) {
   app.add_option("--format", format, "text or json")
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();
+  std::vector<std::string> queries, weaves;
+  app.add_option("-q,--query-file", queries,
+                 "Statistic to answer instead: a SPARQL query; may be repeated");
+  auto* weave = app.add_option("--weave", weaves,
+                               "Update to apply to the algorithm before, until it changes nothing "
+                               "(weaves/depths.rq: sa:depth); may be repeated");
   if (const auto code = parse(app, std::move(arguments))) return *code;
+  if (weave->count() > 0 && queries.empty()) {
+    std::cerr << "sinew stats: --weave prepares what -q asks; give -q FILE\n";
+    return kBadUsage;
+  }
 
   const auto models = load(models_options);
   const graph::Id algorithm = algorithm_of(*models, models_options, query);
+  if (!queries.empty()) {
+    write_output("", answers_of(*models, algorithm, weaves, queries, format));
+    return kOk;
+  }
   const program::Program program = lowered(*models, algorithm, "statistics");
   const program::Program live = program::without_dead_closures(program);
   const program::OperationCount operations = operations_of(program);
@@ -159,10 +193,11 @@ int run_stats(Arguments arguments) {
   report["algorithm"] = models->store.terms().text(algorithm);
   report["closures"] = ask(*models, algorithm, kClosuresByOperator);
   report["data"] = ask(*models, algorithm, kDataByQuantity);
-  report["scheduled"] = {{"closures", live.closures.size()}, {"variables", live.variables.size()},
-                         {"memory_bytes", memory},           {"longest_chain", longest_chain(live)},
-                         {"inputs", interface.in_size},      {"outputs", interface.out_size},
-                         {"state", interface.state_size}};
+  report["scheduled"] = {
+      {"closures", live.closures.size()}, {"variables", live.variables.size()},
+      {"memory_bytes", memory},           {"longest_chain", program::longest_chain(live)},
+      {"inputs", interface.in_size},      {"outputs", interface.out_size},
+      {"state", interface.state_size}};
   report["operations"] = as_json(operations);
   if (const auto programs = apart(*models, models_options, query); programs.size() > 1) {
     report["adds and multiplies of each asked apart"] =

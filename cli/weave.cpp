@@ -8,6 +8,7 @@
 #include "pipeline.h"
 #include "prefixes.h"
 #include "robot_tree.h"
+#include "sinew/program/facts.h"
 #include "write_models.h"
 
 namespace sinew::cli {
@@ -29,15 +30,24 @@ int run_weave(Arguments arguments) {
   std::vector<std::string> robot;
   app.add_option("--model", robot, "Models of the robot, for updates that ask for limits");
   app.add_option("-o,--output", output, "File for the new algorithm (default: standard output)");
+  bool facts = false, repeat = false;
+  app.add_flag("--facts", facts,
+               "First write what the operator catalogue knows of each closure: the blocks that it "
+               "reads and writes (sa:reads, sa:writes), and its operations (sa:additions, …)");
+  app.add_flag("--repeat", repeat, "Apply the update until it changes nothing");
   if (const auto code = parse(app, std::move(arguments))) return *code;
 
   models_options.files.insert(models_options.files.end(), robot.begin(), robot.end());
   const auto models = load(models_options);
   const graph::Id algorithm = algorithm_of(*models, models_options, {});
   if (!robot.empty()) model::write(robot_tree(*models, {}), models->store);
+  if (facts) program::write_facts(models->store, algorithm);
   const auto counts =
-      algorithm::weave(models->store, algorithm, with_known_prefixes(read_input(update)), update);
-  std::cerr << counts.added << " triples added, " << counts.removed << " removed\n";
+      algorithm::weave(models->store, algorithm, with_known_prefixes(read_input(update)), update,
+                       repeat ? algorithm::Rounds::kUntilSettled : algorithm::Rounds::kOne);
+  std::cerr << counts.added << " triples added, " << counts.removed << " removed";
+  if (repeat) std::cerr << " in " << counts.rounds << " rounds";
+  std::cerr << "\n";
   write_output(output, algorithm_as_jsonld(models->store.view(), algorithm));
   return kOk;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sinew/algorithm/read.h"
+#include "sinew/base/error.h"
 #include "sinew/rdf/sparql/engine.h"
 
 namespace sinew::algorithm {
@@ -57,7 +58,7 @@ void copy_graph(const graph::View& from, Id graph, Terms& terms, graph::Transact
 }  // namespace
 
 WeaveCounts weave(graph::Store& store, Id algorithm, std::string_view update,
-                  const std::string& name) {
+                  const std::string& name, Rounds rounds) {
   // A store of its own, where the algorithm is the default graph.
   graph::Store loom;
   const Id woven = loom.terms().iri(store.terms().text(algorithm));
@@ -67,8 +68,24 @@ WeaveCounts weave(graph::Store& store, Id algorithm, std::string_view update,
     copy_graph(store.view(), tree, loom.terms(), change, loom.terms().iri(kNormalisedGraph));
   rdf::sparql::UpdateOptions options;
   options.name = name;
-  const rdf::sparql::UpdateCounts counts =
-      rdf::sparql::update(change, loom.terms(), update, options);
+  WeaveCounts total;
+  for (;;) {
+    const rdf::sparql::UpdateCounts counts =
+        rdf::sparql::update(change, loom.terms(), update, options);
+    if (counts.added + counts.removed == 0) break;
+    total.added += counts.added;
+    total.removed += counts.removed;
+    ++total.rounds;
+    if (rounds == Rounds::kOne) break;
+    if (total.rounds == kMaximumRounds)
+      throw Error(Problem{
+          {name, 1, 0},
+          std::string(store.terms().text(algorithm)),
+          "the update still changes something after " + std::to_string(kMaximumRounds) + " rounds",
+          "let it add only what is not there yet",
+          {},
+          {}});
+  }
   for (const Quad& quad : triples(change.view(), {}))
     change.add({quad.subject, quad.predicate, quad.object, woven});
   change.commit();
@@ -78,7 +95,7 @@ WeaveCounts weave(graph::Store& store, Id algorithm, std::string_view update,
   result.clear(algorithm);
   copy_graph(loom.view(), woven, store.terms(), result, algorithm);
   result.commit();
-  return {counts.added, counts.removed};
+  return total;
 }
 
 }  // namespace sinew::algorithm

@@ -17,11 +17,21 @@
 namespace sinew::algorithm {
 
 struct WeaveCounts {
-  std::size_t added = 0, removed = 0;  // triples
+  std::size_t added = 0, removed = 0;  // triples, of all rounds
+  std::size_t rounds = 0;              // that changed something
 };
 
-// `name` is that of the update, for messages. Throws Error.
+// How often an update is applied that is to be repeated until it changes nothing.
+inline constexpr std::size_t kMaximumRounds = 10'000;
+
+enum class Rounds {
+  kOne,
+  kUntilSettled,  // until it changes nothing: for what no single query reaches (weaves/depths.rq)
+};
+
+// `name` is that of the update, for messages. Throws Error; also when an update still changes
+// something after kMaximumRounds.
 WeaveCounts weave(graph::Store& store, graph::Id algorithm, std::string_view update,
-                  const std::string& name);
+                  const std::string& name, Rounds rounds = Rounds::kOne);
 
 }  // namespace sinew::algorithm
