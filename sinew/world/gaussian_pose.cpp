@@ -3,59 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/world/matrix6.h"
+
 namespace sinew::world {
 namespace {
-
-using Matrix6 = Covariance;
-
-Matrix6 operator*(const Matrix6& a, const Matrix6& b) {
-  Matrix6 c;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t k = 0; k < 6; ++k) {
-      for (std::size_t j = 0; j < 6; ++j) c(i, j) += a(i, k) * b(k, j);
-    }
-  }
-  return c;
-}
-
-Matrix6 transpose(const Matrix6& a) {
-  Matrix6 t;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) t(j, i) = a(i, j);
-  }
-  return t;
-}
-
-// a += scale b
-void add(Matrix6& a, double scale, const Matrix6& b) {
-  for (std::size_t i = 0; i < 36; ++i) a.entries[i] += scale * b.entries[i];
-}
-
-// Rounding must not make it less symmetric with every step.
-Matrix6 symmetric(const Matrix6& a) {
-  Matrix6 s;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) s(i, j) = 0.5 * (a(i, j) + a(j, i));
-  }
-  return s;
-}
-
-// Ad(X) = [R 0; [p]x R  R]
-Matrix6 adjoint(const Pose& X) {
-  Matrix6 ad;
-  const Vector3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (std::size_t j = 0; j < 3; ++j) {
-    const Vector3 r = rotate(X.q, axes[j]);
-    const Vector3 m = math::cross(X.p, r);
-    ad(0, j) = ad(3, j + 3) = r.x;
-    ad(1, j) = ad(4, j + 3) = r.y;
-    ad(2, j) = ad(5, j + 3) = r.z;
-    ad(3, j) = m.x;
-    ad(4, j) = m.y;
-    ad(5, j) = m.z;
-  }
-  return ad;
-}
 
 // The Lie bracket with the i-th unit twist, as a matrix: ad(xi) = [[w]x 0; [v]x [w]x].
 Matrix6 bracket_with_unit(std::size_t i) {

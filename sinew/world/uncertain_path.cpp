@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "sinew/world/impl.h"
 #include "sinew/world/plan.h"
 #include "sinew/world/reading.h"
 #include "sinew/world/refuse.h"
@@ -48,19 +49,77 @@ Pose pose_of(const RelationRecord& relation, const std::vector<double>& values) 
                                          : prismatic(values[0]));
 }
 
+// Whether the displaced pose has the measured one as its mean.
+bool is_centred(const PoseDistribution& displacement) {
+  Pose mean;
+  if (const auto* exact = std::get_if<Pose>(&displacement)) {
+    mean = *exact;
+  } else if (const auto* gaussian = std::get_if<GaussianPose>(&displacement)) {
+    mean = gaussian->mean;
+  } else {
+    return false;
+  }
+  return mean.q.w == 1 && mean.p.x == 0 && mean.p.y == 0 && mean.p.z == 0;
+}
+
+// Far apart among the seeds, so that the steps of one way do not draw what another's do.
+constexpr std::uint64_t kSeedStep = 0x9E3779B97F4A7C15;  // 2^64 / golden ratio
+
+// In a world that is made for one question: what its measurements state becomes what is known of
+// them, of whatever kind.
+void state_deviations(const World& still, const Uncertainties& known, Stamp now) {
+  WorldImpl& impl = still.impl();
+  State next = impl.published();
+  const EditToken token = fresh_token();
+  for (const MeasurementId measurement : known.declared()) {
+    const MeasurementRecord* const record = next.measurements.find(measurement.index);
+    if (!record || !record->alive) continue;
+    const RelationKind kind = next.relations[record->relation].kind;
+    const auto displacement = known.find(still, measurement, kind, now);
+    if (!displacement) continue;
+    MeasurementModel model = *record->model;
+    model.standard_deviation = total_deviation(*displacement);
+    next.measurements.edit(measurement.index, token).model =
+        std::make_shared<const MeasurementModel>(std::move(model));
+  }
+  impl.publish(std::move(next));
+}
+
 }  // namespace
 
 void Uncertainties::set(const World& world, MeasurementId measurement, const Covariance& S) {
+  set_distribution(world, measurement, GaussianPose{{}, S});
+}
+
+void Uncertainties::set_distribution(const World& world, MeasurementId measurement,
+                                     PoseDistribution displacement) {
   const State state = world.state();
   if (record_of(state, world, measurement).quantity != Quantity::kPose) {
-    refuse(world.name(measurement), "six by six numbers for what is no pose",
+    refuse(world.name(measurement), "the uncertainty of a pose for what is no pose",
            "see set_joint for joint positions");
   }
-  if (!is_covariance(S)) {
+  if (const auto* gaussian = std::get_if<GaussianPose>(&displacement);
+      gaussian && !is_covariance(gaussian->covariance)) {
     refuse(world.name(measurement), "its matrix is no covariance",
            "finite, symmetric, and of no negative variance");
   }
-  declared_[measurement] = {S, S};
+  if (const auto fault = fault_of(displacement)) {
+    refuse(world.name(measurement), *fault, "a distribution of its displacement");
+  }
+  declared_[measurement] = std::move(displacement);
+}
+
+void Uncertainties::set_measured(const World& world, MeasurementId measurement,
+                                 MeasurementId numbers) {
+  const State state = world.state();
+  const MeasurementRecord& pose = record_of(state, world, measurement);
+  const MeasurementRecord& other = record_of(state, world, numbers);
+  if (pose.quantity != Quantity::kPose || other.quantity != Quantity::kOther ||
+      pose.relation != other.relation) {
+    refuse(world.name(measurement), "its uncertainty in " + world.name(numbers),
+           "a pose, and a measurement of the same relation that has the numbers of a distribution");
+  }
+  declared_[measurement] = numbers;
 }
 
 void Uncertainties::set_joint(const World& world, MeasurementId measurement, double deviation) {
@@ -73,26 +132,46 @@ void Uncertainties::set_joint(const World& world, MeasurementId measurement, dou
     refuse(world.name(measurement), "a standard deviation of " + std::to_string(deviation),
            "a finite number, zero or more");
   }
-  // exp(q e_z) exp(d e_z) = exp((q + d) e_z): the deviation is about z of the moved frame.
-  Declared declared;
-  declared.pose(2, 2) = declared.prismatic(5, 5) = deviation * deviation;
-  declared_[measurement] = declared;
+  declared_[measurement] = Joint{deviation * deviation};
 }
 
-void Uncertainties::set_exact(MeasurementId measurement) { declared_[measurement] = {}; }
+void Uncertainties::set_exact(MeasurementId measurement) {
+  declared_[measurement] = PoseDistribution(Pose());
+}
 
-const Covariance* Uncertainties::find(MeasurementId measurement, RelationKind kind) const {
+std::optional<PoseDistribution> Uncertainties::find(const World& world, MeasurementId measurement,
+                                                    RelationKind kind, Stamp now) const {
   const auto found = declared_.find(measurement);
-  if (found == declared_.end()) return nullptr;
-  return kind == RelationKind::kPrismatic ? &found->second.prismatic : &found->second.pose;
+  if (found == declared_.end()) return std::nullopt;
+  if (const auto* stated = std::get_if<PoseDistribution>(&found->second)) return *stated;
+  if (const auto* joint = std::get_if<Joint>(&found->second)) {
+    // exp(q e_z) exp(d e_z) = exp((q + d) e_z): the deviation is about z of the moved frame.
+    GaussianPose about_z;
+    const std::size_t axis = kind == RelationKind::kPrismatic ? 5 : 2;
+    about_z.covariance(axis, axis) = joint->variance;
+    return about_z;
+  }
+  const World::Sample numbers = world.latest(std::get<MeasurementId>(found->second), now);
+  if (numbers.bounds.newest != world.latest(measurement, now).bounds.newest) return std::nullopt;
+  return from_numbers(numbers.values);
 }
 
-UncertainPose uncertain_pose(const World& world, const PoseQuery& query, const Uncertainties& known,
-                             Stamp now, Order order) {
+std::vector<MeasurementId> Uncertainties::declared() const {
+  std::vector<MeasurementId> all;
+  for (const auto& [measurement, what] : declared_) all.push_back(measurement);
+  return all;
+}
+
+DistributedPose pose_distribution(const World& world, const PoseQuery& query,
+                                  const Uncertainties& known, Stamp now,
+                                  const CombineOptions& options) {
   const World still = world.clone();
+  if (query.choice == Choice::kMostCertain || query.way == Way::kMostCertain) {
+    state_deviations(still, known, now);
+  }
   const State state = still.state();
   const PreparedPose prepared = still.prepare_pose(query);
-  UncertainPose answer;
+  DistributedPose answer;
   answer.status = prepared.status();
   if (answer.status != Status::kOk) return answer;
   // What would be answered without uncertainty, and all reasons why not.
@@ -103,32 +182,57 @@ UncertainPose uncertain_pose(const World& world, const PoseQuery& query, const U
   const Plan& plan = prepared.plan();
   std::size_t step = 0;  // of the plan: those that are measured
   std::set<MeasurementId> passed;
-  GaussianPose X;
+  PoseDistribution X = Pose();
+  CombineOptions each = options;
+  bool all_centred = true;
   for (const SymbolicStep& walked : plan.symbolic) {
     const RelationRecord& relation = state.relations[walked.relation_id.index];
-    GaussianPose next{walked.value, {}};
+    Pose mean = walked.value;
     MeasurementId used = walked.measurement_id;
     if (!walked.constant) {
       const Measured found = measured(still, plan, plan.steps[step++], now);
       answer.status = found.status;
       if (answer.status != Status::kOk) return answer;
-      next.mean = pose_of(relation, found.values);
+      mean = pose_of(relation, found.values);
       used = found.measurement;
     }
     if (!passed.insert(used).second) {
       refuse(still.name(used), "the way passes it twice, so its parts are not independent",
              "a way without a loop");
     }
-    if (const Covariance* const S = known.find(used, relation.kind)) {
-      next.covariance = *S;
+    PoseDistribution next = mean;
+    if (const auto displacement = known.find(still, used, relation.kind, now)) {
+      next = compose(next, *displacement, options);
+      all_centred = all_centred && is_centred(*displacement);
     } else {
       answer.undeclared.push_back(still.name(used));
     }
-    X = compose(X, walked.inverse ? invert(next) : next, order);
+    X = compose(X, walked.inverse ? invert(next) : next, each);
+    // Draws of one step are not those of another.
+    if (each.seed) *each.seed += kSeedStep;
   }
-  answer.pose = X;
-  answer.pose.mean = certain.pose;
-  if (!answer.undeclared.empty()) answer.pose.covariance = {};
+  answer.pose = answer.undeclared.empty() ? std::move(X) : certain.pose;
+  if (all_centred) {
+    // To the last bit the pose that is answered without uncertainty.
+    if (auto* exact = std::get_if<Pose>(&answer.pose)) *exact = certain.pose;
+    if (auto* gaussian = std::get_if<GaussianPose>(&answer.pose)) gaussian->mean = certain.pose;
+  }
+  return answer;
+}
+
+UncertainPose uncertain_pose(const World& world, const PoseQuery& query, const Uncertainties& known,
+                             Stamp now, Order order) {
+  const DistributedPose found = pose_distribution(world, query, known, now, {.order = order});
+  UncertainPose answer{found.status, {}, found.undeclared};
+  if (const auto* gaussian = std::get_if<GaussianPose>(&found.pose)) {
+    answer.pose = *gaussian;
+  } else if (const auto* exact = std::get_if<Pose>(&found.pose)) {
+    answer.pose.mean = *exact;
+  } else {
+    refuse(world.name(query.of),
+           "its pose is a " + std::string(kind_of(found.pose)) + ", no Gaussian",
+           "pose_distribution, and gaussian_of if one Gaussian will do");
+  }
   return answer;
 }
 

@@ -4,9 +4,9 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <functional>
 #include <random>
 
+#include "random_gaussians.h"
 #include "random_poses.h"
 #include "sinew/base/error.h"
 #include "sinew/world/edit.h"
@@ -15,69 +15,6 @@
 
 namespace sinew::world {
 namespace {
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-Matrix6 eigen(const Covariance& S) {
-  return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(S.entries.data());
-}
-Covariance covariance(const Matrix6& S) {
-  Covariance result;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) result(i, j) = S(i, j);
-  }
-  return result;
-}
-
-// Correlated, with deviations of about these sizes.
-Covariance random_covariance(std::mt19937_64& random, double angular, double linear) {
-  std::normal_distribution<double> normal;
-  Matrix6 A;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) A(i, j) = normal(random) * (i < 3 ? angular : linear) / 2.5;
-  }
-  return covariance(A * A.transpose());
-}
-
-// Draws poses of a Gaussian.
-struct Draw {
-  explicit Draw(const GaussianPose& of) : mean(of.mean) {
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(eigen(of.covariance));
-    root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  }
-  Pose operator()(std::mt19937_64& random) const {
-    std::normal_distribution<double> normal;
-    Vector6 unit;
-    for (int i = 0; i < 6; ++i) unit(i) = normal(random);
-    const Vector6 xi = root * unit;
-    return compose(mean, exponential({{xi(0), xi(1), xi(2)}, {xi(3), xi(4), xi(5)}}, 1.0));
-  }
-  Pose mean;
-  Matrix6 root;
-};
-
-// The mean square of log(mean^-1 X) over many draws of X.
-Covariance monte_carlo(const Pose& mean, int draws, const std::function<Pose()>& draw) {
-  Matrix6 sum = Matrix6::Zero();
-  const Pose to_mean = invert(mean);
-  for (int i = 0; i < draws; ++i) {
-    const Twist t = logarithm(compose(to_mean, draw()));
-    Vector6 xi;
-    xi << t.angular.x, t.angular.y, t.angular.z, t.linear.x, t.linear.y, t.linear.z;
-    sum += xi * xi.transpose();
-  }
-  return covariance(sum / draws);
-}
-
-// How far apart, relative to the size of the second (Frobenius), with angles and lengths weighed
-// by the second's deviations, so that neither hides the other.
-double apart(const Covariance& a, const Covariance& b) {
-  const Vector6 scale = eigen(b).diagonal().cwiseMax(1e-30).cwiseSqrt().cwiseInverse();
-  const Matrix6 A = scale.asDiagonal() * eigen(a) * scale.asDiagonal();
-  const Matrix6 B = scale.asDiagonal() * eigen(b) * scale.asDiagonal();
-  return (A - B).norm() / B.norm();
-}
 
 // With this many draws the error of a variance is about sqrt(2 / draws), 0.6 %.
 constexpr int kDraws = 60000;
@@ -91,10 +28,10 @@ TEST(GaussianPose, TheAdjointIsThatOfEigen) {
     const Eigen::Matrix3d R = Eigen::Quaterniond(X.q.w, X.q.x, X.q.y, X.q.z).toRotationMatrix();
     Eigen::Matrix3d p;
     p << 0, -X.p.z, X.p.y, X.p.z, 0, -X.p.x, -X.p.y, X.p.x, 0;
-    Matrix6 ad = Matrix6::Zero();
+    EigenMatrix6 ad = EigenMatrix6::Zero();
     ad.topLeftCorner<3, 3>() = ad.bottomRightCorner<3, 3>() = R;
     ad.bottomLeftCorner<3, 3>() = p * R;
-    const Matrix6 expected = ad * eigen(S) * ad.transpose();
+    const EigenMatrix6 expected = ad * eigen(S) * ad.transpose();
     EXPECT_LT((eigen(seen_from(X, S)) - expected).norm(), 1e-12 * expected.norm());
   }
 }
@@ -165,11 +102,11 @@ TEST(GaussianPose, KnowsWhatIsACovariance) {
   std::mt19937_64 random(6);
   for (int i = 0; i < 50; ++i) {
     EXPECT_TRUE(is_covariance(random_covariance(random, 0.1, 2)));
-    Matrix6 S = eigen(random_covariance(random, 1, 1));
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(S);
-    Vector6 values = solver.eigenvalues();
+    EigenMatrix6 S = eigen(random_covariance(random, 1, 1));
+    const Eigen::SelfAdjointEigenSolver<EigenMatrix6> solver(S);
+    EigenVector6 values = solver.eigenvalues();
     values(i % 6) = -0.01 * values(5);  // a negative variance along some axis
-    const Matrix6 bad =
+    const EigenMatrix6 bad =
         solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
     EXPECT_FALSE(is_covariance(covariance(bad)));
   }
