@@ -64,7 +64,9 @@ struct Numbers {
   Pose pose() {
     std::array<double, 7> n;
     for (double& number : n) number = next();
-    return {{n[0], n[1], n[2], n[3]}, {n[4], n[5], n[6]}};
+    Pose X{{n[0], n[1], n[2], n[3]}, {n[4], n[5], n[6]}};
+    normalise(X);  // where it is none, fault_of will say so
+    return X;
   }
   Covariance covariance() {
     Covariance S;
