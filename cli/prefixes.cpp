@@ -37,6 +37,8 @@ const rdf::Prefixes& known_prefixes() {
     p.set("sa", "https://w3id.org/sinew/algorithm#");
     p.set("so", "https://w3id.org/sinew/operators#");
     p.set("sq", "https://w3id.org/sinew/query#");
+    p.set("w", "https://w3id.org/sinew/world#");
+    p.set("shape", "https://w3id.org/sinew/shape#");
     p.set("step", "https://w3id.org/sinew/steps#");
     return p;
   }();

@@ -248,6 +248,14 @@ void Edit::remove(FrameId frame) {
   touch(ElementKind::kFrame, frame.index);
 }
 
+void Edit::set_attachment(RelationId relation, bool is_attachment, bool is_suspended) {
+  alive(*world_, next_, relation);
+  RelationRecord& record = next_.relations.edit(relation.index, token_);
+  record.attachment = is_attachment;
+  record.suspended = is_suspended;
+  touch(ElementKind::kRelation, relation.index);
+}
+
 void Edit::set_frame(ObjectId object, FrameId frame) {
   alive(*world_, next_, object);
   alive(*world_, next_, frame);

@@ -32,6 +32,9 @@ class Edit {
   RelationId detach(FrameId frame, FrameId parent, Stamp now, std::string_view provenance);
   // An object moves to another frame, without a change of any pose.
   void set_frame(ObjectId object, FrameId frame);
+  // A relation as `attach` makes one, or leaves one behind: for scenes that are read back
+  // (scene.h).
+  void set_attachment(RelationId relation, bool is_attachment, bool is_suspended);
   // A first value for a measurement that this edit has added; nobody reads it yet.
   void set_value(MeasurementId measurement, Stamp stamp, std::span<const double> values);
 

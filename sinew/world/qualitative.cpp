@@ -20,7 +20,9 @@ std::optional<std::size_t> quantity_index(std::string_view name) {
   return static_cast<std::size_t>(found - all.begin());
 }
 
-void check(const Rule& rule) {
+}  // namespace
+
+void check_rule(const Rule& rule) {
   if (rule.conditions.empty()) refuse(rule.name, "has no condition", "at least one");
   for (const Condition& condition : rule.conditions) {
     const auto index = quantity_index(condition.quantity);
@@ -44,6 +46,8 @@ void check(const Rule& rule) {
     }
   }
 }
+
+namespace {
 
 std::string number(double value) {
   char text[32];
@@ -89,7 +93,7 @@ std::vector<Rule> usual_rules() {
 Relations::Relations(const Space& space, std::vector<Rule> rules)
     : space_(&space), rules_(std::move(rules)) {
   for (auto rule = rules_.begin(); rule != rules_.end(); ++rule) {
-    check(*rule);
+    check_rule(*rule);
     if (std::any_of(rules_.begin(), rule,
                     [&](const Rule& other) { return other.name == rule->name; })) {
       refuse(rule->name, "has two rules", "one rule for each relation");

@@ -49,6 +49,10 @@ struct Rule {
 // what does not fit.
 std::vector<Rule> usual_rules();
 
+// Throws Error naming the rule where it has no condition, a quantity is none of quantities() or is
+// of three bodies in a rule for two, or bounds are not in order.
+void check_rule(const Rule& rule);
+
 struct QuantityDescription {
   std::string_view name, unit, meaning;
   bool ternary = false;
@@ -79,8 +83,7 @@ std::string explain(const Judgement& judgement);
 
 class Relations {
  public:
-  // Throws Error naming the rule where a name is there twice, a quantity is none of quantities() or
-  // is of three bodies in a rule for two, or bounds are not in order. The space must outlive this.
+  // Throws Error as `check_rule`, and where a name is there twice. The space must outlive this.
   explicit Relations(const Space& space, std::vector<Rule> rules = usual_rules());
 
   // A number that rules use: the reach of a robot.

@@ -1,33 +1,33 @@
 #include "sinew/world/scene.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 #include <unordered_map>
 
-#include "sinew/model/graph_reader.h"
 #include "sinew/model/structure.h"
+#include "sinew/vocab/vocab.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/reading.h"
-#include "sinew/world/symbols.h"
+#include "sinew/world/scene_numbers.h"
 
 namespace sinew::world {
 namespace {
 
 using graph::Id;
 
-constexpr data::Dimension kTime = {{0, 0, 1}};
-
 struct SceneReader {
   World& world;
   graph::Store& store;
-  model::GraphReader reader;
+  model::GraphReader& reader;
+  SceneNumbers numbers;
   model::Structure structure;
   Edit edit;
   std::unordered_map<Id, const model::Structure::ConstantPose*> by_coordinate;
+  std::unordered_map<Id, std::vector<const model::Structure::ConstantPose*>> by_relation;
 
-  Id w(std::string_view term) {
-    return store.terms().iri(std::string(kWorldNamespace) + std::string(term));
-  }
+  Id w(std::string_view term) { return numbers.w(term); }
   std::string text(Id id) { return std::string(reader.text(id)); }
 
   FrameId frame(Id iri) {
@@ -35,106 +35,275 @@ struct SceneReader {
     return there ? there : edit.add_frame(reader.text(iri));
   }
 
-  // A property whose value is a node with a number and a unit of time.
-  std::optional<Duration> duration(Id node, Id property) {
-    const Id value = reader.view.object(node, property);
-    if (!value) return kForever;
-    const auto number = reader.number(value, w("number"));
-    const auto scale = reader.scale(value, kTime, "the duration");
-    if (!number || !scale) return std::nullopt;
-    return duration_of_seconds(*number * *scale);
+  // What an edit refuses is a fault of the node that asked for it.
+  template <typename Do>
+  void attempt(Id node, Do&& act) {
+    try {
+      act();
+    } catch (const Error& error) {
+      for (const Problem& problem : error.problems()) {
+        reader.error(node, {},
+                     (problem.iri == reader.text(node) ? "" : problem.iri + ": ") + problem.what,
+                     problem.remedy);
+      }
+    }
   }
 
-  std::optional<LifeCycle> life_cycle(Id node) {
-    const auto kind = reader.one(node, w("life-cycle"), "how long the measurement holds");
-    const auto validity = duration(node, w("validity"));
-    if (!kind || !validity) return std::nullopt;
-    if (reader.text(*kind) == "static") return Static{};
-    if (reader.text(*kind) == "time-dependent") return TimeDependent{.validity = *validity};
-    reader.error(node, w("life-cycle"), "there is no life-cycle '" + text(*kind) + "' in models",
-                 "static or time-dependent; predictions are declared in code");
+  // ---- what is known of a measurement ----
+
+  std::optional<PredictionModel> prediction(Id node, FrameId with_respect_to) {
+    const auto model = reader.one(node, w("predicted-by"), "the model of a prediction");
+    if (!model) return std::nullopt;
+    const bool moves = numbers.has(*model, "angular") || numbers.has(*model, "linear");
+    if (reader.is_a(*model, w("ConstantVelocity"))) {
+      if (!moves) return ConstantVelocity{};
+      const auto angular = numbers.vector(*model, w("angular"));
+      const auto linear = numbers.vector(*model, w("linear"));
+      const auto of_angles =
+          reader.scale(*model, model::dimension::kAngularVelocity, "the angular velocity");
+      const auto of_lengths =
+          reader.scale(*model, model::dimension::kVelocity, "the linear velocity");
+      if (!angular || !linear || !of_angles || !of_lengths) return std::nullopt;
+      return ConstantVelocity{.twist = Twist{*of_angles * *angular, *of_lengths * *linear}};
+    }
+    if (reader.is_a(*model, w("Conveyor"))) {
+      const auto linear = numbers.vector(*model, w("linear"));
+      const auto scale =
+          reader.scale(*model, model::dimension::kVelocity, "the conveyor's velocity");
+      const auto seen_by = reader.one(*model, reader.ids.seen_by, "the frame of the velocity");
+      if (!linear || !scale || !seen_by) return std::nullopt;
+      if (edit.find_frame(reader.text(*seen_by)) != with_respect_to) {
+        reader.error(*model, reader.ids.seen_by, "the velocity is seen by " + text(*seen_by),
+                     "by the frame with respect to which the pose is measured");
+        return std::nullopt;
+      }
+      return Conveyor{*scale * *linear};
+    }
+    reader.error(node, w("predicted-by"), text(*model) + " is no model of prediction",
+                 "a ConstantVelocity or a Conveyor; others are declared in code");
     return std::nullopt;
   }
 
-  std::vector<std::string> texts(Id node, Id property) {
-    std::vector<std::string> result;
-    for (const Id object : reader.objects(node, property)) result.push_back(text(object));
-    return result;
+  std::optional<LifeCycle> life_cycle(Id node, FrameId with_respect_to) {
+    const auto kind = reader.one(node, w("life-cycle"), "how long the measurement holds");
+    const auto validity = numbers.duration(node, "validity");
+    const auto horizon = numbers.duration(node, "horizon");
+    if (!kind || !validity || !horizon) return std::nullopt;
+    if (reader.text(*kind) != "prediction" &&
+        (numbers.has(node, "predicted-by") || numbers.has(node, "horizon"))) {
+      reader.error(node, w("life-cycle"),
+                   "a model of prediction for a measurement that is " + text(*kind),
+                   "the life-cycle prediction");
+      return std::nullopt;
+    }
+    if (reader.text(*kind) == "static") return Static{};
+    if (reader.text(*kind) == "time-dependent") return TimeDependent{.validity = *validity};
+    if (reader.text(*kind) == "prediction") {
+      auto model = prediction(node, with_respect_to);
+      if (!model) return std::nullopt;
+      return Prediction{.model = std::move(*model), .horizon = *horizon};
+    }
+    reader.error(node, w("life-cycle"), "there is no life-cycle '" + text(*kind) + "' in models",
+                 "static, time-dependent or prediction");
+    return std::nullopt;
   }
 
-  void measurement(Id node, RelationId relation, FrameId of, FrameId with_respect_to) {
-    const auto cycle = life_cycle(node);
-    const auto period = duration(node, w("period"));
+  std::optional<Interpolation> interpolation(Id node) {
+    if (!numbers.has(node, "interpolation")) return Interpolation::kLinear;
+    const auto name = reader.one(node, w("interpolation"), "the interpolation");
+    if (!name) return std::nullopt;
+    if (reader.text(*name) == "linear") return Interpolation::kLinear;
+    if (reader.text(*name) == "screw") return Interpolation::kScrew;
+    if (reader.text(*name) == "hold") return Interpolation::kHold;
+    reader.error(node, w("interpolation"), "there is no interpolation '" + text(*name) + "'",
+                 "linear, screw or hold");
+    return std::nullopt;
+  }
+
+  // The deviation by which Choice::kMostCertain and Way::kMostCertain compare, in metres.
+  std::optional<double> deviation(Id node) {
+    if (!numbers.has(node, "deviation")) return MeasurementModel{}.standard_deviation;
+    const auto value = reader.one(node, w("deviation"), "the standard deviation");
+    if (!value) return std::nullopt;
+    const auto number = reader.number(*value, w("number"));
+    const auto scale = reader.scale(*value, model::dimension::kLength, "the standard deviation");
+    if (!number || !scale) return std::nullopt;
+    if (*number < 0) {
+      reader.error(*value, w("number"), fmt::format("a deviation of {}", *number),
+                   "none is below zero");
+      return std::nullopt;
+    }
+    return *scale * *number;
+  }
+
+  std::optional<std::uint32_t> entries(Id node, bool is_static) {
+    if (!numbers.has(node, "entries")) return is_static ? 1 : kUsualCapacity;
+    const auto literal = reader.one(node, w("entries"), "the number of entries that are kept");
+    if (!literal) return std::nullopt;
+    const auto count = reader.view.terms().integer_value(*literal);
+    if (count && *count >= 1 && *count <= std::int64_t{kMaximumCapacity}) {
+      return static_cast<std::uint32_t>(*count);
+    }
+    reader.error(node, w("entries"), text(*literal) + " entries are kept",
+                 "an integer from 1 to " + std::to_string(kMaximumCapacity));
+    return std::nullopt;
+  }
+
+  std::optional<MeasurementModel> model_of(Id node, FrameId with_respect_to) {
+    const auto cycle = life_cycle(node, with_respect_to);
+    const auto period = numbers.duration(node, "period");
     const auto provenance = reader.one(node, w("provenance"), "who provides the measurement");
-    if (!cycle || !period || !provenance) return;
+    const auto between = interpolation(node);
+    const auto standard_deviation = deviation(node);
+    if (!cycle || !period || !provenance || !between || !standard_deviation) return std::nullopt;
     MeasurementModel model{.life_cycle = *cycle,
+                           .interpolation = *between,
                            .provenance = text(*provenance),
-                           .used_by = texts(node, w("used-by")),
+                           .standard_deviation = *standard_deviation,
                            .period = *period};
+    for (const Id user : reader.objects(node, w("used-by"))) model.used_by.push_back(text(user));
     if (const Id seen_from = reader.view.object(node, w("coord-frame"))) {
       model.coord_frame = text(seen_from);
     }
-    const bool is_static = std::holds_alternative<Static>(*cycle);
-    const MeasurementId made = edit.add_measurement({.name = reader.text(node),
-                                                     .relation = relation,
-                                                     .model = std::move(model),
-                                                     .capacity = is_static ? 1 : kUsualCapacity});
-    const Id value = reader.view.object(node, w("value"));
-    if (!value) return;
-    const auto found = by_coordinate.find(value);
-    if (found == by_coordinate.end()) {
-      reader.error(node, w("value"), text(value) + " are no coordinates of a pose",
-                   "a PoseCoordinate of the relation that is measured");
-      return;
-    }
-    set(made, *found->second, of, with_respect_to, node);
+    return model;
   }
 
-  void set(MeasurementId made, const model::Structure::ConstantPose& pose, FrameId of,
-           FrameId with_respect_to, Id node) {
-    const FrameId pose_of = frame(structure.frames[static_cast<std::size_t>(pose.of)].iri);
-    const FrameId pose_to =
-        frame(structure.frames[static_cast<std::size_t>(pose.with_respect_to)].iri);
-    if (pose_of != of || pose_to != with_respect_to) {
-      reader.error(node, {}, "its coordinates are those of another relation",
-                   "coordinates of the relation that is measured");
-      return;
+  // ---- values ----
+
+  struct Value {
+    Pose pose;
+    Stamp stamp;
+  };
+  std::optional<Value> value(Id node, Id stated, FrameId of, FrameId with_respect_to) {
+    if (const auto found = by_coordinate.find(stated); found != by_coordinate.end()) {
+      const auto& pose = *found->second;
+      if (frame(structure.frames[static_cast<std::size_t>(pose.of)].iri) != of ||
+          frame(structure.frames[static_cast<std::size_t>(pose.with_respect_to)].iri) !=
+              with_respect_to) {
+        reader.error(node, {}, "its coordinates are those of another relation",
+                     "coordinates of the relation that is measured");
+        return std::nullopt;
+      }
+      return Value{from_matrix(pose.pose), Stamp()};
     }
+    if (!reader.is_a(stated, w("PoseValue"))) {
+      reader.error(node, w("value"), text(stated) + " are no coordinates of a pose",
+                   "a PoseValue, or a PoseCoordinate of the relation that is measured");
+      return std::nullopt;
+    }
+    const auto seen_by = reader.one(stated, reader.ids.seen_by, "the frame that sees the pose");
+    const auto pose = numbers.pose(stated, true);
+    const auto stamp = numbers.stamp(stated);
+    if (!seen_by || !pose || !stamp) return std::nullopt;
+    if (edit.find_frame(reader.text(*seen_by)) != with_respect_to) {
+      reader.error(stated, reader.ids.seen_by, "the pose is seen by " + text(*seen_by),
+                   "by the frame with respect to which it is");
+      return std::nullopt;
+    }
+    return Value{*pose, *stamp};
+  }
+
+  void set(MeasurementId measurement, const Value& value) {
     double values[7];
-    store_pose(from_matrix(pose.pose), values);
-    edit.set_value(made, Stamp(), values);
+    store_pose(value.pose, values);
+    edit.set_value(measurement, value.stamp, values);
+  }
+
+  // A value of the relation itself: constant, and the model's.
+  void constant(Id node, const std::string& name, RelationId relation, const Value& value) {
+    attempt(node, [&] {
+      set(edit.add_measurement(
+              {.name = name,
+               .relation = relation,
+               .model = {.life_cycle = Static{}, .provenance = std::string(kModelProvenance)},
+               .capacity = 1}),
+          value);
+    });
+  }
+
+  void measurement(Id node, RelationId relation, FrameId of, FrameId with_respect_to) {
+    auto model = model_of(node, with_respect_to);
+    if (!model) return;
+    const bool is_static = std::holds_alternative<Static>(model->life_cycle);
+    const auto capacity = entries(node, is_static);
+    if (!capacity) return;
+    bool keep_all = false;
+    if (numbers.has(node, "keeps-all")) {
+      const std::string_view stated = reader.text(reader.view.object(node, w("keeps-all")));
+      keep_all = stated == "true" || stated == "1";
+    }
+    const Id stated = reader.view.object(node, w("value"));
+    if (is_static && !stated) {
+      reader.warning(node, w("value"), "is static and has no value",
+                     "state its value; until it is written, no pose leads over it");
+    }
+    const auto first = stated ? value(node, stated, of, with_respect_to) : std::nullopt;
+    attempt(node, [&] {
+      const MeasurementId made = edit.add_measurement({.name = reader.text(node),
+                                                       .relation = relation,
+                                                       .model = std::move(*model),
+                                                       .capacity = *capacity,
+                                                       .keep_all = keep_all});
+      if (first) set(made, *first);
+    });
   }
 
   void relation(Id node) {
     const Id of = reader.view.object(node, reader.ids.of);
     const Id to = reader.view.object(node, reader.ids.with_respect_to);
-    if (!reader.is_a(of, reader.ids.frame) || !reader.is_a(to, reader.ids.frame)) return;
-    const FrameId frame_of = frame(of), frame_to = frame(to);
-    const RelationId made =
-        edit.add_relation({.name = reader.text(node), .of = frame_of, .with_respect_to = frame_to});
     const std::vector<Id> measurements = reader.objects(node, w("measured-by"));
-    for (const Id measured : measurements) measurement(measured, made, frame_of, frame_to);
-    if (!measurements.empty()) return;
-    for (const auto& [coordinate, pose] : by_coordinate) {
-      if (reader.view.object(coordinate, reader.ids.of_pose) != node) continue;
-      const MeasurementId constant = edit.add_measurement(
-          {.name = text(coordinate) + "/value",
-           .relation = made,
-           .model = {.life_cycle = Static{}, .provenance = std::string(kModelProvenance)},
-           .capacity = 1});
-      set(constant, *pose, frame_of, frame_to, node);
+    const Id stated = reader.view.object(node, w("value"));
+    if (!reader.is_a(of, reader.ids.frame) || !reader.is_a(to, reader.ids.frame)) {
+      // Poses of links and simplices are other modules' business, unless somebody measures them.
+      if (!measurements.empty() || stated) {
+        reader.error(node,
+                     reader.is_a(of, reader.ids.frame) ? reader.ids.with_respect_to : reader.ids.of,
+                     "a pose that is not between two frames",
+                     "of, and with-respect-to: each a Frame of these models");
+      }
+      return;
     }
+    const FrameId frame_of = frame(of), frame_to = frame(to);
+    attempt(node, [&] {
+      const RelationId made = edit.add_relation(
+          {.name = reader.text(node), .of = frame_of, .with_respect_to = frame_to});
+      const Id suspended = reader.view.object(node, w("suspended"));
+      const bool is_attachment = reader.is_a(node, w("Attachment"));
+      if (is_attachment || suspended) {
+        edit.set_attachment(made, is_attachment, suspended && reader.text(suspended) == "true");
+      }
+      for (const Id measured : measurements) measurement(measured, made, frame_of, frame_to);
+      if (stated) {
+        const auto first = value(node, stated, frame_of, frame_to);
+        if (first) constant(node, text(node) + "/value", made, *first);
+      }
+      if (!measurements.empty() || stated) return;
+      for (const auto* pose : by_relation[node]) {
+        constant(node, text(pose->coordinate) + "/value", made, {from_matrix(pose->pose), Stamp()});
+      }
+    });
   }
 
   void object(Id node) {
     const auto to = reader.one(node, w("attached-to"), "the frame that the object is attached to");
     if (!to) return;
+    if (!reader.is_a(*to, reader.ids.frame) && !edit.find_frame(reader.text(*to))) {
+      reader.error(node, w("attached-to"), "is attached to " + text(*to) + ", which is no frame",
+                   "a Frame of these models");
+      return;
+    }
     const Id model = reader.view.object(node, w("instance-of"));
-    edit.add_object(reader.text(node), frame(*to), model ? reader.text(model) : "");
+    attempt(node, [&] {
+      edit.add_object(reader.text(node), frame(*to), model ? reader.text(model) : "");
+    });
   }
 
   void run() {
-    for (const auto& pose : structure.poses) by_coordinate[pose.coordinate] = &pose;
+    for (const auto& pose : structure.poses) {
+      by_coordinate[pose.coordinate] = &pose;
+      const Id relation = reader.view.object(pose.coordinate, reader.ids.of_pose);
+      if (relation) by_relation[relation].push_back(&pose);
+    }
     for (const Id node : reader.all(reader.ids.frame)) frame(node);
     for (const Id node : reader.all(store.terms().iri(vocab::geom_rel::Pose))) relation(node);
     for (const Id node : reader.all(w("Object"))) object(node);
@@ -144,12 +313,15 @@ struct SceneReader {
 }  // namespace
 
 void load_scene(World& world, graph::Store& store, const graph::Places& places, Report& report) {
+  model::GraphReader reader(store, places, report);
   SceneReader scene{.world = world,
                     .store = store,
-                    .reader = model::GraphReader(store, places, report),
+                    .reader = reader,
+                    .numbers = {reader, store},
                     .structure = model::read_structure(store, places, report),
                     .edit = world.edit(),
-                    .by_coordinate = {}};
+                    .by_coordinate = {},
+                    .by_relation = {}};
   if (report.has_errors()) return;
   scene.run();
   if (!report.has_errors()) scene.edit.commit();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "sinew/world/refuse.h"
 
@@ -20,6 +21,29 @@ void check_positive(double value, std::string_view what, std::string_view iri) {
   if (!positive(value)) {
     refuse(iri, std::string(what) + " is " + std::to_string(value), "a finite length above 0 m");
   }
+}
+
+// On which side of the line from a to b the point c is: left positive, on it 0.
+double side(const std::array<double, 2>& a, const std::array<double, 2>& b,
+            const std::array<double, 2>& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+// Two sides of the outline that are no neighbours and cross, if there are any.
+std::optional<std::pair<std::size_t, std::size_t>> crossing_sides(
+    const std::vector<std::array<double, 2>>& outline) {
+  const std::size_t n = outline.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto &a = outline[i], &b = outline[(i + 1) % n];
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if ((j + 1) % n == i) continue;
+      const auto &c = outline[j], &d = outline[(j + 1) % n];
+      if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) {
+        return std::pair{i, j};
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 struct Check {
@@ -53,6 +77,12 @@ struct Check {
              "3 to " + std::to_string(kMaximumPolygonCorners));
     }
     check_positive(polygon.top - polygon.bottom, "the polygon's height", iri);
+    if (const auto sides = crossing_sides(polygon.outline)) {
+      refuse(iri,
+             "the outline crosses itself: side " + std::to_string(sides->first) + " meets side " +
+                 std::to_string(sides->second),
+             "a convex outline; side i leads from corner i, counted from 0, to the next");
+    }
     double turns = 0;  // all of them: 2 pi where the outline goes round once
     for (std::size_t i = 0; i < n; ++i) {
       const auto& a = polygon.outline[i];

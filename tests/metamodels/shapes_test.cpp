@@ -13,6 +13,7 @@
 #include "pipeline.h"
 #include "sinew/blocks/graph.h"
 #include "sinew/blocks/parser.h"
+#include "sinew/model/load.h"
 #include "sinew/model/tree.h"
 #include "sinew/rdf/catalogue/catalogue.h"
 #include "sinew/rdf/jsonld/load.h"
@@ -43,7 +44,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& ending
 }
 
 // Everything that the project writes: the Gen3, its normalised tree, an algorithm, every named
-// query with the sweeps and steps, and the example of the block language.
+// query with the sweeps and steps, scenes, and the example of the block language.
 class Ours : public testing::Test {
  protected:
   Ours() {
@@ -68,6 +69,11 @@ class Ours : public testing::Test {
             [&](const graph::Quad& quad) { quads.push_back(quad); }, nullptr, report);
         report.throw_if_errors();
         for (const graph::Quad& quad : quads) store.add(quad);
+      }
+    }
+    for (const char* folder : {"sinew/world/test/models", "examples/assembly_cell"}) {
+      for (const fs::path& file : files_in(kProject / folder, ".jsonld")) {
+        model::load_files({&file, 1}, {}, store, models_->places, scene_report_);
       }
     }
     for (const fs::path& file : files_in(kProject / "examples/conversions", ".blocks")) {
@@ -106,6 +112,10 @@ class Ours : public testing::Test {
                             "PREFIX sg: <https://w3id.org/sinew/geometry#> "
                             "PREFIX data: <https://w3id.org/sinew/data#> "
                             "PREFIX rdf: <http://www.w3.org/1999/02/22-rdf-syntax-ns#> "
+                            "PREFIX w: <https://w3id.org/sinew/world#> "
+                            "PREFIX shape: <https://w3id.org/sinew/shape#> "
+                            "PREFIX geom-coord: "
+                            "<https://comp-rob2b.github.io/metamodels/geometry/coordinates#> "
                             "PREFIX qudt: <http://qudt.org/schema/qudt/> " +
                                 std::string(text));
     transaction.commit();
@@ -113,6 +123,7 @@ class Ours : public testing::Test {
   }
 
   std::unique_ptr<cli::Models> models_;
+  Report scene_report_;
 };
 
 TEST_F(Ours, ConformsToTheShapesOfEveryMetamodel) { EXPECT_EQ(report(), "conforms\n"); }
@@ -153,6 +164,28 @@ TEST_F(Ours, WhatIsTakenAwayIsMissed) {
       {"DELETE { ?x data:name ?y } WHERE { ?x a data:Prototype ; data:name ?y }", "needs one name"},
       {"DELETE { ?x data:text ?y } WHERE { ?x a data:Representation ; data:text ?y }", "data#text"},
       {"INSERT DATA { <http://e/d> a sg:DirectionReference }", "names one direction"},
+      {take("w:Object", "w:attached-to"), "attached to one frame"},
+      {take("w:Area", "w:shaped-as"), "An area has a shape"},
+      {take("shape:Box", "qudt:unit"), "states the unit of its lengths"},
+      {take("shape:Sphere", "geom-coord:as-seen-by"), "A shape is seen from one frame"},
+      {take("shape:Sphere", "shape:radius"), "shape#radius"},
+      {take("w:Polygon", "w:outline"), "world#outline"},
+      {take("w:MeshBounds", "w:highest"), "world#highest"},
+      {take("w:Measurement", "w:life-cycle"), "static, time-dependent or a prediction"},
+      {take("w:Measurement", "w:provenance"), "names who provides it"},
+      {take("w:PoseValue", "qudt:unit"), "The value of a pose states two units"},
+      {take("w:PoseValue", "w:quaternion"), "world#quaternion"},
+      {take("w:PoseCovariance", "qudt:unit"), "one of angles and one of lengths"},
+      {take("w:PoseCovariance", "geom-coord:as-seen-by"), "seen from the frame whose pose it is"},
+      {take("w:Conveyor", "w:linear"), "world#linear"},
+      {take("w:Allowance", "w:what"), "world#what"},
+      {take("w:RelationRule", "w:axes"), "along the axes of"},
+      {"DELETE { GRAPH ?g { ?x qudt:unit ?y } } WHERE { GRAPH ?g { ?x w:measures ?q ; qudt:unit ?y "
+       "} }",
+       "A condition states its unit"},
+      {"DELETE { GRAPH ?g { ?x qudt:unit ?y } } WHERE { GRAPH ?g { ?m w:validity ?x . ?x qudt:unit "
+       "?y } }",
+       "A number states its unit"},
   };
   graph::Store kept = models_->store.clone();
   for (const auto& [text, says] : cases) {
