@@ -1,5 +1,5 @@
-// Any text as a table of numbers: it is refused with an Error, or what is written from it reads back
-// with the same columns and bits.
+// Any text as a table of numbers: it is refused with an Error, or what is written from it reads
+// back with the same columns and bits.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -97,6 +97,19 @@ std::string read_text_file(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+TypePointer read_extents(Scanner& scanner, TypePointer element) {
+  std::vector<std::size_t> extents;
+  while (scanner.take("[")) {
+    extents.push_back(scanner.expect_number("array size", kMaximumArrayCount));
+    if (extents.back() == 0) scanner.fail("an array needs at least one element");
+    scanner.expect("]");
+  }
+  for (auto extent = extents.rbegin(); extent != extents.rend(); ++extent) {
+    element = array_type(std::move(element), *extent);
+  }
+  return element;
+}
+
 void fail_at(const Place& place, std::string what, std::string remedy) {
   throw Error(Problem{place, {}, std::move(what), std::move(remedy), Severity::kError, {}});
 }

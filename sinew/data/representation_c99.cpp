@@ -64,20 +64,6 @@ class Reader {
                   did_you_mean(name, names, "use a scalar, an array or a struct with its members"));
   }
 
-  // [3][4] behind a type or a name.
-  TypePointer read_extents(TypePointer element) {
-    std::vector<std::size_t> extents;
-    while (scanner_.take("[")) {
-      extents.push_back(scanner_.expect_number("array size", kMaximumArrayCount));
-      if (extents.back() == 0) scanner_.fail("an array needs at least one element");
-      scanner_.expect("]");
-    }
-    for (auto extent = extents.rbegin(); extent != extents.rend(); ++extent) {
-      element = array_type(std::move(element), *extent);
-    }
-    return element;
-  }
-
  private:
   TypePointer read_struct(std::size_t depth) {
     std::string name;
@@ -92,7 +78,7 @@ class Reader {
         if (!names.insert(member).second) {
           scanner_.fail(fmt::format("member '{}' is there twice", member), "rename one of them");
         }
-        members.push_back({member, read_extents(type), 0, {}});
+        members.push_back({member, read_extents(scanner_, type), 0, {}});
       } while (scanner_.take(","));
       scanner_.expect(";");
     }
@@ -111,7 +97,7 @@ Representation read_c99(const RepresentationRequest& request) {
   Scanner scanner(request.text, request.place);
   Reader reader(scanner);
   Representation result;
-  result.type = reader.read_extents(reader.read_type(0));
+  result.type = read_extents(scanner, reader.read_type(0));
   if (scanner.take("in")) {
     if (scanner.peek().kind != Word::Kind::kString) scanner.fail("'in' wants a header in quotes");
     result.headers = {scanner.next().text};

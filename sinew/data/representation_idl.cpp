@@ -108,7 +108,7 @@ class IdlReader {
       } else if (word == "typedef") {
         const TypePointer type = read_type(scope, 0);
         const std::string name = joined(scope, scanner_.expect_name("a name"));
-        types_.define(name, file_, read_extents(type));
+        types_.define(name, file_, read_extents(scanner_, type));
       } else if (word == "const" || word == "enum" || word == "union") {
         scanner_.fail(fmt::format("'{}' is not supported", word), "describe structs of numbers");
       } else {
@@ -136,7 +136,7 @@ class IdlReader {
         if (!names.insert(member).second) {
           scanner_.fail(fmt::format("member '{}' is there twice", member), "rename one of them");
         }
-        members.push_back({member, read_extents(type), 0, {}});
+        members.push_back({member, read_extents(scanner_, type), 0, {}});
       } while (scanner_.take(","));
       scanner_.expect(";");
     }
@@ -167,19 +167,6 @@ class IdlReader {
     for (const auto& [known, type] : types_.by_name) names.push_back(known);
     scanner_.fail(fmt::format("IDL type '{}' is not defined before its use", name),
                   did_you_mean(name, names, "define it first"));
-  }
-
-  TypePointer read_extents(TypePointer element) {
-    std::vector<std::size_t> extents;
-    while (scanner_.take("[")) {
-      extents.push_back(scanner_.expect_number("array size", kMaximumArrayCount));
-      if (extents.back() == 0) scanner_.fail("an array needs at least one element");
-      scanner_.expect("]");
-    }
-    for (auto extent = extents.rbegin(); extent != extents.rend(); ++extent) {
-      element = array_type(std::move(element), *extent);
-    }
-    return element;
   }
 
   Scanner& scanner_;

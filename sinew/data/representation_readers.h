@@ -24,6 +24,9 @@ Representation read_smartsoft(const RepresentationRequest& request);
 Representation read_idl(const RepresentationRequest& request);
 Representation read_json(const RepresentationRequest& request);
 
+// [3][4] behind a type or a name, as C and IDL write arrays: `element` itself where there is none.
+TypePointer read_extents(Scanner& scanner, TypePointer element);
+
 // Files in the source directories (not below them) whose name ends in one of `endings`, by name.
 std::vector<std::filesystem::path> files_with(const TypeSources& sources,
                                               std::initializer_list<std::string_view> endings);

@@ -1,5 +1,5 @@
-// Any text as an update of an algorithm: it is woven in and the result reads back without a fault, or
-// it is refused and the algorithm stays as it was.
+// Any text as an update of an algorithm: it is woven in and the result reads back without a fault,
+// or it is refused and the algorithm stays as it was.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -38,7 +38,9 @@ struct Composition {
     builder.finish();
     transaction.commit();
   }
-  graph::Id iri(const std::string& name) { return store.terms().iri("https://example.org/" + name); }
+  graph::Id iri(const std::string& name) {
+    return store.terms().iri("https://example.org/" + name);
+  }
 };
 
 // Prefixes of what an update speaks of, so that mutations need not invent them.
