@@ -12,6 +12,12 @@ std::string_view to_string(Act act) {
       return "change-relation";
     case Act::kModel:
       return "change-model";
+    case Act::kRead:
+      return "read-measurement";
+    case Act::kPerform:
+      return "perform-action";
+    case Act::kPredict:
+      return "predict-action";
   }
   return "unknown";
 }

@@ -2,7 +2,8 @@
 // first, in a ring of fixed size. What no longer fits is counted, never lost in silence.
 //
 // Passed means passed by the rights: numbers that are not finite, say, are refused afterwards, by a
-// Status to whoever wrote. Of a real-time handle the claim is recorded, not each write.
+// Status to whoever wrote. Of a real-time handle the claim is recorded, not each write; of a query
+// that it was prepared, not each answer.
 //
 // Any thread may call anything at any time; nothing here is for real-time threads.
 #pragma once
@@ -25,6 +26,9 @@ enum class Act : std::uint8_t {
   kMeasure,  // write a value of a measurement, or claim it for real time
   kRelate,   // change a symbolic relation: add or remove it, attach or detach a frame
   kModel,    // add or remove an object, or change which model it is an instance of
+  kRead,     // read a measurement, or prepare a query that does
+  kPerform,  // perform an action (action_effects.h)
+  kPredict,  // ask what an action would lead to; changes nothing
 };
 std::string_view to_string(Act act);
 
@@ -35,7 +39,7 @@ struct AuditEntry {
   bool accepted = false;
   std::string who = {};            // provenance
   std::string what = {};           // IRI; empty for a measurement that is younger than the rights
-  MeasurementId measurement = {};  // of Act::kMeasure
+  MeasurementId measurement = {};  // of Act::kMeasure and Act::kRead
   std::string reason = {};         // of a refusal
 };
 

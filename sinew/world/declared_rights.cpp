@@ -23,11 +23,12 @@ struct RightsReader {
   std::optional<Act> act(Id rule) {
     const auto word = reader.one(rule, w("act"), "what the rule is about");
     if (!word) return std::nullopt;
-    for (const Act act : {Act::kMeasure, Act::kRelate, Act::kModel}) {
+    for (const Act act : {Act::kMeasure, Act::kRelate, Act::kModel, Act::kRead, Act::kPerform}) {
       if (reader.text(*word) == to_string(act)) return act;
     }
     reader.error(rule, w("act"), "there is no act '" + std::string(reader.text(*word)) + "'",
-                 "write-measurement, change-relation or change-model");
+                 "write-measurement, change-relation, change-model, read-measurement or "
+                 "perform-action");
     return std::nullopt;
   }
 
@@ -46,6 +47,8 @@ struct RightsReader {
       const std::vector<Id> objects = some(rule, w("what"), "to what");
       if (!about) continue;
       for (const Id who : subjects) {
+        declared.named.push_back({std::string(reader.text(who)), std::string(reader.text(rule)),
+                                  places.find(rule, w("who"))});
         for (const Id what : objects) {
           if (allowed) {
             declared.rights.allow(reader.text(who), *about, reader.text(what));
@@ -57,8 +60,22 @@ struct RightsReader {
     }
   }
 
-  void writers() {
+  void single_writers() {
+    for (const Id rule : reader.all(w("SingleWriter"))) {
+      for (const Id what : some(rule, w("what"), "of what")) {
+        declared.rights.require_single_writer(reader.text(what));
+      }
+    }
+  }
+
+  void components() {
     for (const Id component : reader.all(w("Component"))) {
+      declared.components.emplace(reader.text(component));
+      for (const Id measurement : reader.objects(component, w("reads"))) {
+        declared.readers.push_back({std::string(reader.text(component)),
+                                    std::string(reader.text(measurement)),
+                                    places.find(component, w("reads"))});
+      }
       for (const Id measurement : reader.objects(component, w("writes"))) {
         declared.writers.push_back({std::string(reader.text(component)),
                                     std::string(reader.text(measurement)),
@@ -74,8 +91,44 @@ DeclaredRights read_rights(graph::Store& store, const graph::Places& places, Rep
   RightsReader reader{store, places, model::GraphReader(store, places, report)};
   reader.rules("Allowance", true);
   reader.rules("Prohibition", false);
-  reader.writers();
+  reader.single_writers();
+  reader.components();
   return std::move(reader.declared);
+}
+
+void check_configuration(const World& world, const DeclaredRights& declared, Report& report) {
+  check_configuration(world, declared.rights, declared.writers, report);
+  const State state = world.state();
+  for (const DeclaredReader& reader : declared.readers) {
+    const MeasurementId measurement = world.find_measurement(reader.what);
+    if (!measurement) {
+      report.error(reader.place, reader.what,
+                   reader.who + " is to read it, and it is no measurement of this world",
+                   "the IRI of a measurement");
+      continue;
+    }
+    const MeasurementModel& model = *state.measurements[measurement.index].model;
+    if (const auto reason = declared.rights.reason_against_reading(
+            reader.who, reader.what, model.used_by, model.provenance)) {
+      report.error(reader.place, reader.what, reader.who + " is to read it, but " + *reason,
+                   "one of its users as the reader, or a rule that allows it");
+    }
+  }
+  for (Index at = 0; at < state.measurements.size(); ++at) {
+    const MeasurementRecord& record = state.measurements[at];
+    if (!record.alive) continue;
+    for (const std::string& user : record.model->used_by) {
+      if (declared.components.contains(user)) continue;
+      report.error({}, world.name(MeasurementId{at}),
+                   "its user " + user + " is no declared component", "the IRI of a w:Component");
+    }
+  }
+  for (const DeclaredRights::Named& named : declared.named) {
+    if (declared.components.contains(named.who)) continue;
+    report.error(named.place, named.rule,
+                 "it is about " + named.who + ", which is no declared component",
+                 "the IRI of a w:Component");
+  }
 }
 
 }  // namespace sinew::world

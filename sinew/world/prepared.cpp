@@ -3,16 +3,26 @@
 #include "sinew/world/impl.h"
 
 namespace sinew::world {
+namespace {
 
-PreparedPose::PreparedPose(std::shared_ptr<WorldImpl> world, PoseQuery query)
-    : world_(std::move(world)), query_(std::move(query)) {
+std::shared_ptr<const Plan> checked(std::shared_ptr<const Plan> plan,
+                                    const std::shared_ptr<const PlanGuard>& guard) {
+  if (guard) (*guard)(*plan);
+  return plan;
+}
+
+}  // namespace
+
+PreparedPose::PreparedPose(std::shared_ptr<WorldImpl> world, PoseQuery query,
+                           std::shared_ptr<const PlanGuard> guard)
+    : world_(std::move(world)), query_(std::move(query)), guard_(std::move(guard)) {
   refresh();
 }
 
 bool PreparedPose::is_current() const {
   return plan_->structure_version == world_->structure.load(std::memory_order_acquire);
 }
-void PreparedPose::refresh() { plan_ = world_->plan(query_, false); }
+void PreparedPose::refresh() { plan_ = checked(world_->plan(query_, false), guard_); }
 Status PreparedPose::status() const { return plan_->status; }
 std::size_t PreparedPose::measured_steps() const { return plan_->steps.size(); }
 std::vector<SymbolicStep> PreparedPose::symbolic() const { return plan_->symbolic; }
@@ -48,15 +58,16 @@ PoseAnswer PreparedPose::latest_common() {
   return latest_common_realtime();
 }
 
-PreparedMotion::PreparedMotion(std::shared_ptr<WorldImpl> world, PoseQuery query)
-    : world_(std::move(world)), query_(std::move(query)) {
+PreparedMotion::PreparedMotion(std::shared_ptr<WorldImpl> world, PoseQuery query,
+                               std::shared_ptr<const PlanGuard> guard)
+    : world_(std::move(world)), query_(std::move(query)), guard_(std::move(guard)) {
   refresh();
 }
 
 bool PreparedMotion::is_current() const {
   return plan_->structure_version == world_->structure.load(std::memory_order_acquire);
 }
-void PreparedMotion::refresh() { plan_ = world_->plan(query_, true); }
+void PreparedMotion::refresh() { plan_ = checked(world_->plan(query_, true), guard_); }
 Status PreparedMotion::status() const { return plan_->status; }
 bool PreparedMotion::has_twist() const {
   return std::all_of(plan_->steps.begin(), plan_->steps.end(),

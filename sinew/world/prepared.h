@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +28,9 @@ namespace sinew::world {
 
 struct WorldImpl;
 struct Plan;
+
+// Looks at what a plan reads before it is used, and throws Error where somebody may not (reader.h).
+using PlanGuard = std::function<void(const Plan& plan)>;
 
 // Which of several measurements of one relation is used.
 enum class Choice : std::uint8_t {
@@ -91,9 +95,12 @@ class PreparedPose {
 
  private:
   friend class World;
-  PreparedPose(std::shared_ptr<WorldImpl> world, PoseQuery query);
+  friend class Reader;
+  PreparedPose(std::shared_ptr<WorldImpl> world, PoseQuery query,
+               std::shared_ptr<const PlanGuard> guard = nullptr);
   std::shared_ptr<WorldImpl> world_;
   PoseQuery query_;
+  std::shared_ptr<const PlanGuard> guard_;  // of every plan, when it is made; none: null
   std::shared_ptr<const Plan> plan_;
 };
 
@@ -113,9 +120,12 @@ class PreparedMotion {
 
  private:
   friend class World;
-  PreparedMotion(std::shared_ptr<WorldImpl> world, PoseQuery query);
+  friend class Reader;
+  PreparedMotion(std::shared_ptr<WorldImpl> world, PoseQuery query,
+                 std::shared_ptr<const PlanGuard> guard = nullptr);
   std::shared_ptr<WorldImpl> world_;
   PoseQuery query_;
+  std::shared_ptr<const PlanGuard> guard_;  // of every plan, when it is made; none: null
   std::shared_ptr<const Plan> plan_;
 };
 

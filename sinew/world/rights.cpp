@@ -1,5 +1,7 @@
 #include "sinew/world/rights.h"
 
+#include <algorithm>
+
 #include "sinew/world/refuse.h"
 
 namespace sinew::world {
@@ -13,6 +15,11 @@ std::string forbidden_verb(Act act) {
       return " may not change this relation";
     case Act::kModel:
       return " may not change this model";
+    case Act::kRead:
+      return " may not read it";
+    case Act::kPerform:
+    case Act::kPredict:
+      return " may not perform this action";
   }
   return " may not do this";
 }
@@ -70,6 +77,30 @@ std::optional<std::string> Rights::reason_against(std::string_view who, Act act,
   if (who == provenance) return std::nullopt;
   if (provenance.empty()) return name + forbidden_verb(act) + ": it has no declared provenance";
   return name + forbidden_verb(act) + ": its provenance is " + std::string(provenance);
+}
+
+std::optional<std::string> Rights::reason_against_reading(std::string_view who,
+                                                          std::string_view what,
+                                                          std::span<const std::string> users,
+                                                          std::string_view provenance) const {
+  if (who.empty()) return "whoever reads does not say who it is";
+  const std::optional<bool> special = rule(who, Act::kRead, what);
+  const std::optional<bool> general = rule(who, Act::kRead, kAnything);
+  const std::string refusal = std::string(who) + forbidden_verb(Act::kRead);
+  if (special == false || general == false) return refusal + ": a rule forbids it";
+  if (special || general || users.empty() || who == provenance) return std::nullopt;
+  if (std::find(users.begin(), users.end(), who) != users.end()) return std::nullopt;
+  std::string names;
+  for (const std::string& user : users) names += (names.empty() ? "" : ", ") + user;
+  return refusal + ": its users are " + names;
+}
+
+void Rights::require_single_writer(std::string_view what) {
+  if (what.empty()) refuse(what, "a rule without a name", "the measurement, or kAnything");
+  single_writers_.emplace(what);
+}
+bool Rights::single_writer(std::string_view what) const {
+  return single_writers_.contains(what) || single_writers_.contains(kAnything);
 }
 
 void enforce(World& world, const Rights& rights, std::shared_ptr<Audit> audit) {
@@ -158,7 +189,12 @@ void check_configuration(const World& world, const Rights& rights,
                    "its provenance as the writer, or a rule that allows it");
     }
     const auto [there, added] = first_of.emplace(measurement.index, &writer);
-    if (!added && there->second->who != writer.who) {
+    if (!added && there->second->who != writer.who && rights.single_writer(writer.what)) {
+      report.error(writer.place, writer.what,
+                   "two write it: " + there->second->who + " and " + writer.who +
+                       ", and a rule says that it has a single writer",
+                   "one writer, or a measurement for each");
+    } else if (!added && there->second->who != writer.who) {
       report.warning(writer.place, writer.what,
                      "two write it: " + there->second->who + " and " + writer.who,
                      "one writer, or a measurement for each: a query may choose by provenance");

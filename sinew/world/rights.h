@@ -1,4 +1,5 @@
-// Who may write which measurement, relation or model: access rights by provenance.
+// Who may write which measurement, relation or model, and who may read: access rights by provenance
+// and by declared users.
 //
 //   Rights rights;
 //   rights.allow("http://cell/planner", Act::kRelate, "http://cell/part");
@@ -10,6 +11,10 @@
 // else, and nobody changes relations or models. A rule that forbids is stronger than one that
 // allows, and both are stronger than the declared provenance.
 //
+// A measurement that names its users (MeasurementModel::used_by) is read by them, by whoever is its
+// provenance, and by nobody else; one that names none by everybody. Rules are stronger here as
+// well. Reading asks nobody unless it is done through a Reader (reader.h).
+//
 // `enforce` puts itself where the world asks before each write (World::set_write_guard). Structure
 // is changed through an Actor, which asks first; World::edit is for the process that owns the
 // world. A clone keeps the rights and the audit of its original until it is given others.
@@ -18,6 +23,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,13 +50,23 @@ class Rights {
   // measurement, empty for anything else.
   std::optional<std::string> reason_against(std::string_view who, Act act, std::string_view what,
                                             std::string_view provenance = {}) const;
+  // The same of reading; `users` and `provenance` are the measurement's.
+  std::optional<std::string> reason_against_reading(std::string_view who, std::string_view what,
+                                                    std::span<const std::string> users,
+                                                    std::string_view provenance) const;
   std::size_t size() const { return rules_.size(); }
+
+  // Of the measurement, or of kAnything: two that declare to write it are an error, not a warning
+  // (check_configuration).
+  void require_single_writer(std::string_view what);
+  bool single_writer(std::string_view what) const;
 
  private:
   using Key = std::tuple<std::string, Act, std::string>;  // who, act, what
   void set(std::string_view who, Act act, std::string_view what, bool allowed);
   std::optional<bool> rule(std::string_view who, Act act, std::string_view what) const;
   std::map<Key, bool> rules_;
+  std::set<std::string, std::less<>> single_writers_;
 };
 
 // From now on every write and claim is judged by a copy of these rights, and recorded if there is
@@ -90,7 +106,7 @@ struct DeclaredWriter {
 
 // Finds what cannot work together, and reports each with its place:
 //   error    a static measurement with a declared writer; a writer without the right; a writer of
-//            what is no measurement of this world
+//            what is no measurement of this world; several writers where one is required
 //   warning  a measurement that changes and that nobody declares to write; several writers of one
 void check_configuration(const World& world, const Rights& rights,
                          std::span<const DeclaredWriter> writers, Report& report);

@@ -4,31 +4,13 @@
 #include <optional>
 
 #include "sinew/rdf/sparql/engine.h"
+#include "sinew/world/message_text.h"
 #include "sinew/world/refuse.h"
 
 namespace sinew::world {
 namespace {
 
 using graph::Id;
-
-// The message with each {x} replaced by value(x); nothing when a brace stays open or a name has no
-// value.
-template <typename Value>
-std::optional<std::string> filled_in(const std::string& message, Value&& value) {
-  std::string text;
-  std::size_t at = 0;
-  while (true) {
-    const std::size_t open = message.find('{', at);
-    text += message.substr(at, open - at);
-    if (open == std::string::npos) return text;
-    const std::size_t close = message.find('}', open);
-    if (close == std::string::npos) return std::nullopt;
-    const std::optional<std::string> name = value(message.substr(open + 1, close - open - 1));
-    if (!name) return std::nullopt;
-    text += *name;
-    at = close + 1;
-  }
-}
 
 rdf::sparql::Answer ask(const graph::View& view, graph::Terms& terms, const SituationRule& rule) {
   return rdf::sparql::query(view, terms, rule.query, {.name = rule.name, .base = {}});

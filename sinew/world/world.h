@@ -194,6 +194,7 @@ class World {
   WorldImpl& impl() const { return *impl_; }  // for the module's own functions
 
  private:
+  friend class Reader;
   explicit World(std::shared_ptr<WorldImpl> impl);
   std::shared_ptr<WorldImpl> impl_;
 };
