@@ -139,6 +139,20 @@ bool Cell::correct(Stamp at, const double* values, Epoch epoch, Ring*& spare) {
   return true;
 }
 
+void Cell::begin_replacing(Epoch epoch, Ring*& spare) {
+  writable(epoch, spare);
+  const std::uint64_t head = head_.load(std::memory_order_relaxed);
+  const std::uint64_t corrections = (head + (1ull << Head::kCorrectionShift)) & Head::kCorrections;
+  head_.store(Head::count(head) << Head::kCountShift | corrections | Head::kCorrecting,
+              std::memory_order_release);
+}
+
+void Cell::finish_replacing(Stamp stamp, const double* values) {
+  const std::uint64_t head = head_.load(std::memory_order_relaxed);
+  store(*current_.load(std::memory_order_relaxed), Head::count(head) - 1, stamp, values);
+  head_.store(head & ~Head::kCorrecting, std::memory_order_release);
+}
+
 void Cell::join_batch(std::shared_ptr<const BatchState> batch) {
   batch_.store(batch.get(), std::memory_order_release);
   if (std::find(batches_.begin(), batches_.end(), batch) == batches_.end()) {

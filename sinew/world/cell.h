@@ -140,6 +140,10 @@ class alignas(64) Cell {
   // Puts an entry in its place by time, or replaces the one with the same stamp. At most `capacity`
   // entries are moved. False when it is older than all that the full ring holds.
   bool correct(Stamp stamp, const double* values, Epoch epoch, Ring*& spare);
+  // Replaces the last entry, in two halves: in between readers find the cell unsettled, so that
+  // other cells can change together with it. Precondition: there is an entry, and no batch pending.
+  void begin_replacing(Epoch epoch, Ring*& spare);
+  void finish_replacing(Stamp stamp, const double* values);
 
   // ---- between writes, under the world's lock ----
 

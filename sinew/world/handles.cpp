@@ -71,14 +71,19 @@ bool make_acceptable(bool is_pose, double* values, std::size_t count) {
   return true;
 }
 
-// Appends a value and its blocks, unseen until the batch is committed.
-void prepare(WriterState::Target& target, Stamp stamp, const double* values, Epoch epoch) {
+// Appends to the blocks of a value, unseen until the batch is committed.
+void prepare_blocks(WriterState::Target& target, Stamp stamp, const double* values, Epoch epoch) {
   for (std::size_t i = 0; i < target.blocks_targets.size(); ++i) {
     double numbers[kMaximumValues];
     convert(target.blocks->blocks[i], values, numbers);
     Spare spare(*target.blocks_targets[i]);
     target.blocks_targets[i]->cell->prepare(stamp, numbers, epoch, spare.ring);
   }
+}
+
+// The same to a value and its blocks.
+void prepare(WriterState::Target& target, Stamp stamp, const double* values, Epoch epoch) {
+  prepare_blocks(target, stamp, values, epoch);
   Spare spare(target);
   target.cell->prepare(stamp, values, epoch, spare.ring);
 }
@@ -117,9 +122,18 @@ Status Writer::write_values(Stamp stamp, const double* values, bool correction) 
   const std::optional<Stamp> last = last_stamp(cell);
   const bool past = last && stamp <= *last;
   if (past && !correction) return Status::kOutOfOrder;
-  // Blocks hold the last value; a past one does not touch them, and the last one has no new stamp.
-  if (past && target.blocks && stamp == *last) return Status::kOutOfOrder;
   const Writing writing(*state_, *world_);
+  // Blocks hold the last value: one further back does not touch them.
+  if (past && target.blocks && stamp == *last) {
+    Spare spare(target);
+    cell.begin_replacing(writing.epoch, spare.ring);
+    const std::uint64_t batch = open_batch(*state_->batch);
+    prepare_blocks(target, stamp, values, writing.epoch);
+    state_->batch->store(batch + 1, std::memory_order_release);
+    for (const auto& block : target.blocks_targets) block->cell->finish();
+    cell.finish_replacing(stamp, values);
+    return Status::kOk;
+  }
   if (target.blocks && !past) {
     const std::uint64_t batch = open_batch(*state_->batch);
     prepare(target, stamp, values, writing.epoch);
@@ -167,6 +181,14 @@ Status Writer::correct(Stamp stamp, std::span<const double> values) {
 }
 
 Status Writer::write_block(std::size_t block, Stamp stamp, const void* value, std::size_t size) {
+  return write_block(block, stamp, value, size, false);
+}
+Status Writer::correct_block(std::size_t block, Stamp stamp, const void* value, std::size_t size) {
+  return write_block(block, stamp, value, size, true);
+}
+
+Status Writer::write_block(std::size_t block, Stamp stamp, const void* value, std::size_t size,
+                           bool correction) {
   const WriterState::Target& target = *state_->targets.front();
   if (!target.blocks || block >= target.blocks->blocks.size()) return Status::kNotANumber;
   const DataBlock& from = target.blocks->blocks[block];
@@ -177,7 +199,7 @@ Status Writer::write_block(std::size_t block, Stamp stamp, const void* value, st
   if (!make_acceptable(target.is_pose, canonical, target.cell->values())) {
     return Status::kNotANumber;
   }
-  return write_values(stamp, canonical, false);
+  return write_values(stamp, canonical, correction);
 }
 
 BatchWriter::BatchWriter(std::shared_ptr<WorldImpl> world, std::unique_ptr<WriterState> state)

@@ -60,11 +60,16 @@ class Writer {
   // The value as one of the measurement's data blocks has it, `size` bytes; all blocks follow.
   // kReadOnly when the block is derived, kNotANumber when the size is wrong.
   Status write_block(std::size_t block, Stamp stamp, const void* value, std::size_t size);
+  // The same for a past value, as `correct`. At the last stamp the measurement and all its blocks
+  // change as one.
+  Status correct_block(std::size_t block, Stamp stamp, const void* value, std::size_t size);
 
  private:
   friend class World;
   Writer(std::shared_ptr<WorldImpl> world, std::unique_ptr<WriterState> state);
   Status write_values(Stamp stamp, const double* values, bool correction);
+  Status write_block(std::size_t block, Stamp stamp, const void* value, std::size_t size,
+                     bool correction);
   std::shared_ptr<WorldImpl> world_;
   std::unique_ptr<WriterState> state_;
 };

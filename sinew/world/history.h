@@ -5,11 +5,16 @@
 // as long as a history or a user holds it. The world lets go of those that every declared user
 // (MeasurementModel::used_by) has said to be done with; without declared users it keeps all, up to
 // kMaximumHistory.
+//
+// Queries of the past that the ring no longer covers are answered from here (World::at,
+// PreparedPose::at, PreparedMotion::at; not in real time), with what corrections have made of it,
+// back to the last entry that was let go.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +37,22 @@ struct History {
   PersistentVector<HistoryEntryPointer> entries;  // from `first` on
   std::size_t first = 0;                          // those before are let go
   std::map<std::string, std::size_t> done;        // by user: entries before this one
+  // Those later than all that were let go, by stamp, of each stamp the last that was written.
+  PersistentVector<HistoryEntryPointer> by_time;  // from `first_by_time` on
+  std::size_t first_by_time = 0;
+  Stamp let_go_until = Stamp::min();
+
   std::size_t size() const { return entries.size() - first; }
   const HistoryEntryPointer& operator[](std::size_t i) const { return entries[first + i]; }
+  // The place in by_time of the last entry with a stamp of at most `time`; nothing where there is
+  // none.
+  std::optional<std::size_t> find(Stamp time) const;
+  bool covers_something() const { return first_by_time < by_time.size(); }
 };
+
+// Precondition: the history is nobody else's yet. Costs as many moves as there are later stamps.
+void append(History& history, HistoryEntryPointer entry);
+// Lets go of the entries before number `first`.
+void let_go(History& history, std::size_t first);
 
 }  // namespace sinew::world

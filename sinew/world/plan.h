@@ -67,4 +67,11 @@ void read_at(const Plan& plan, Stamp time, Policy policy, PoseAnswer& answer);
 void read_latest_common(const Plan& plan, Policy policy, PoseAnswer& answer);
 void read_motion(const Plan& plan, Stamp time, bool latest, Policy policy, MotionAnswer& answer);
 
+// The state at a time that some ring no longer covers, with the histories of `past`; not for
+// real-time threads. kBusy when `past` is older than what the rings begin with: take a newer one.
+void read_at_past(const Plan& plan, const State& past, Stamp time, Policy policy,
+                  PoseAnswer& answer);
+void read_motion_past(const Plan& plan, const State& past, Stamp time, Policy policy,
+                      MotionAnswer& answer);
+
 }  // namespace sinew::world

@@ -22,6 +22,12 @@ struct PlanReading {
   Cell::View views[kMaximumPlanCells];
   Used used[kMaximumPlanCells];
   std::size_t uses;
+  // Whose histories answer for what rings no longer cover; null: nobody's, as in real time.
+  const State* past = nullptr;
+
+  const History* history(MeasurementId measurement) const {
+    return past ? past->measurements[measurement.index].history.get() : nullptr;
+  }
 };
 
 inline bool collect(const Plan& plan, PlanReading& reading) {
@@ -84,6 +90,11 @@ Status read_one(const Plan& plan, std::uint32_t candidate, Stamp time, PlanReadi
                                ? read_last(from, view, time, values, gathered)
                                : read_between(from, view, time, values, gathered);
   reading.used[reading.uses++] = {candidate, read.first};
+  if (kWhen == When::kAt && read.status == Status::kTooOld) [[unlikely]] {
+    if (const History* const history = reading.history(from.measurement)) {
+      return read_past(from, *history, time, values, gathered);
+    }
+  }
   return read.status;
 }
 
@@ -96,7 +107,8 @@ Status read_step(const Plan& plan, const PlanStep& step, Stamp time, PlanReading
   Status status = read_one<kWhen>(plan, candidate, time, reading, values, gathered);
   if (status == Status::kOk) [[likely]]
     return status;
-  bounds = bounds_of(plan.candidates[candidate], reading.views[candidate]);
+  bounds = bounds_of(plan.candidates[candidate], reading.views[candidate],
+                     reading.history(plan.candidates[candidate].measurement));
   for (std::uint32_t i = step.first; i < step.first + step.count; ++i) {
     if (i == candidate) continue;
     if (read_one<kWhen>(plan, i, time, reading, values, gathered) == Status::kOk)

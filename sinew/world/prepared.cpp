@@ -11,6 +11,12 @@ std::shared_ptr<const Plan> checked(std::shared_ptr<const Plan> plan,
   return plan;
 }
 
+// Whether the past is to be asked: at first where a ring does not go back so far, then again where
+// entries came while it was asked.
+bool asks_histories(Status status, int attempt) {
+  return attempt == 0 ? status == Status::kTooOld : status == Status::kBusy;
+}
+
 }  // namespace
 
 PreparedPose::PreparedPose(std::shared_ptr<WorldImpl> world, PoseQuery query,
@@ -51,7 +57,14 @@ PoseAnswer PreparedPose::latest(Stamp now) {
 }
 PoseAnswer PreparedPose::at(Stamp time) {
   if (!is_current()) refresh();
-  return at_realtime(time);
+  PoseAnswer answer = at_realtime(time);
+  for (int attempt = 0; attempt < kReadAttempts && asks_histories(answer.status, attempt);
+       ++attempt) {
+    const State past = world_->published();
+    read_at_past(*plan_, past, time, query_.policy, answer);
+    answer.structure_changed = !is_current();
+  }
+  return answer;
 }
 PoseAnswer PreparedPose::latest_common() {
   if (!is_current()) refresh();
@@ -97,7 +110,14 @@ MotionAnswer PreparedMotion::latest(Stamp now) {
 }
 MotionAnswer PreparedMotion::at(Stamp time) {
   if (!is_current()) refresh();
-  return at_realtime(time);
+  MotionAnswer answer = at_realtime(time);
+  for (int attempt = 0; attempt < kReadAttempts && asks_histories(answer.status, attempt);
+       ++attempt) {
+    const State past = world_->published();
+    read_motion_past(*plan_, past, time, query_.policy, answer);
+    answer.structure_changed = !is_current();
+  }
+  return answer;
 }
 
 }  // namespace sinew::world

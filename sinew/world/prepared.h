@@ -6,6 +6,9 @@
 // `at` the state of each at one time, between entries or by a model. All measurements of one answer
 // are read at one instant: what a batch wrote is in the answer whole or not at all.
 //
+// What a ring no longer covers, `at` takes from the measurement's history, where one is kept
+// (history.h); `at_realtime` never does.
+//
 // Every answer has a freshness; it is judged at `now`, or at the time that was asked for.
 //
 // A plan holds while the world's structure does. `latest` and `at` plan anew after a change;

@@ -95,12 +95,34 @@ CellReading read_between(const Candidate& from, const Cell::View& view, Stamp ti
   return {Status::kOk, at};
 }
 
-Bounds bounds_of(const Candidate& from, const Cell::View& view) {
+Status read_past(const Candidate& from, const History& history, Stamp time, double* values,
+                 Gathered& gathered) {
+  const std::optional<std::size_t> found = history.find(time);
+  if (!found) return history.covers_something() ? Status::kTooOld : Status::kBusy;
+  const HistoryEntry& before = *history.by_time[*found];
+  if (before.stamp == time) {
+    std::copy(before.values.begin(), before.values.end(), values);
+  } else {
+    if (*found + 1 == history.by_time.size()) return Status::kBusy;
+    const HistoryEntry& after = *history.by_time[*found + 1];
+    const double share = static_cast<double>((time - before.stamp).count()) /
+                         static_cast<double>((after.stamp - before.stamp).count());
+    interpolate(from.model->interpolation, from.quantity, from.cell->values(), before.values.data(),
+                after.values.data(), share, values);
+  }
+  gathered.add(from, before.stamp, time);
+  return Status::kOk;
+}
+
+Bounds bounds_of(const Candidate& from, const Cell::View& view, const History* history) {
   Bounds bounds;
   bounds.measurement = from.measurement;
   if (view.count > 0) {
     bounds.oldest = from.cell->stamp(view, from.cell->oldest(view));
     bounds.newest = from.cell->stamp(view, view.count - 1);
+  }
+  if (history && history->covers_something()) {
+    bounds.oldest = std::min(bounds.oldest, history->by_time[history->first_by_time]->stamp);
   }
   return bounds;
 }

@@ -60,11 +60,17 @@ CellReading read_last(const Candidate& from, const Cell::View& view, Stamp now, 
 CellReading read_between(const Candidate& from, const Cell::View& view, Stamp time, double* values,
                          Gathered& gathered);
 
+// The same from all entries that are kept; kTooOld before them, kBusy after them (the ring has what
+// came since this version). Not for real-time threads.
+Status read_past(const Candidate& from, const History& history, Stamp time, double* values,
+                 Gathered& gathered);
+
 // From one to the other, share 0 .. 1.
 void interpolate(Interpolation how, Quantity quantity, std::uint32_t size, const double* from,
                  const double* to, double share, double* values);
 
-Bounds bounds_of(const Candidate& from, const Cell::View& view);
+// With a history, what that covers as well.
+Bounds bounds_of(const Candidate& from, const Cell::View& view, const History* history = nullptr);
 
 // A pose's numbers, and the stamp before them, straight from a ring.
 inline Pose load_entry(const std::atomic<std::uint64_t>* words) {

@@ -149,6 +149,10 @@ class World {
   };
   Status read_blocks(MeasurementId measurement, std::span<const BlockBuffer> buffers,
                      Stamp* stamp = nullptr) const;
+  // What the blocks are at another time: made from the measurement's value then, as `at` has it,
+  // with all its corrections.
+  Status read_blocks_at(MeasurementId measurement, Stamp time,
+                        std::span<const BlockBuffer> buffers) const;
   // The numbers at one time, as queries see them; Status::kOk or why not.
   struct Sample {
     Status status = Status::kNoData;

@@ -7,6 +7,50 @@
 
 namespace sinew::world {
 
+std::optional<std::size_t> History::find(Stamp time) const {
+  std::size_t low = first_by_time, high = by_time.size();
+  while (low < high) {
+    const std::size_t middle = low + (high - low) / 2;
+    if (by_time[middle]->stamp <= time) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  if (low == first_by_time) return std::nullopt;
+  return low - 1;
+}
+
+void append(History& history, HistoryEntryPointer entry) {
+  const EditToken token = fresh_token();
+  const Stamp stamp = entry->stamp;
+  history.entries.push_back(entry, token);
+  // What lies among entries that were let go is not covered any more.
+  if (stamp <= history.let_go_until) return;
+  const std::optional<std::size_t> before = history.find(stamp);
+  if (before && history.by_time[*before]->stamp == stamp) {
+    history.by_time.edit(*before, token) = std::move(entry);
+    return;
+  }
+  const std::size_t place = before ? *before + 1 : history.first_by_time;
+  for (std::size_t at = history.by_time.size(); at > place; --at) {
+    history.by_time.edit(at, token) = HistoryEntryPointer(history.by_time[at - 1]);
+  }
+  history.by_time.edit(place, token) = std::move(entry);
+}
+
+void let_go(History& history, std::size_t first) {
+  const EditToken token = fresh_token();
+  for (; history.first < first; ++history.first) {
+    history.let_go_until = std::max(history.let_go_until, history.entries[history.first]->stamp);
+    history.entries.edit(history.first, token) = nullptr;
+  }
+  while (history.covers_something() &&
+         history.by_time[history.first_by_time]->stamp <= history.let_go_until) {
+    history.by_time.edit(history.first_by_time++, token) = nullptr;
+  }
+}
+
 History World::history(MeasurementId measurement) const {
   const State state = impl_->published();
   const MeasurementRecord& record = alive(*impl_, state, measurement);
@@ -34,8 +78,7 @@ void World::done(MeasurementId measurement, std::string_view user, const History
     const auto said = next.done.find(each);
     first = std::min(first, said == next.done.end() ? std::size_t{0} : said->second);
   }
-  const EditToken token = fresh_token();
-  for (; next.first < first; ++next.first) next.entries.edit(next.first, token) = nullptr;
+  let_go(next, first);
   State state = impl_->published();
   state.measurements.edit(measurement.index, fresh_token()).history =
       std::make_shared<const History>(std::move(next));

@@ -59,21 +59,31 @@ Candidate candidate_of(const WorldImpl& world, const MeasurementRecord& record,
   return candidate;
 }
 
+// The numbers by read(candidate, view, values, gathered) or, where the ring does not go back so
+// far, by the history.
 template <typename Read>
 World::Sample sample(const WorldImpl& world, MeasurementId measurement, Stamp time, Read&& read) {
-  const State state = world.published();
-  const MeasurementRecord& record = alive(world, state, measurement);
-  const Candidate from = candidate_of(world, record, measurement);
   World::Sample result;
-  result.values.resize(record.cell->values());
   for (int attempt = 0; attempt < kReadAttempts; ++attempt) {
+    const State state = world.published();
+    const MeasurementRecord& record = alive(world, state, measurement);
+    const Candidate from = candidate_of(world, record, measurement);
+    result.values.resize(record.cell->values());
     const Cell::View view = record.cell->view(from.as_of);
     if (!view.settled) continue;
     Gathered gathered;
     const CellReading reading = read(from, view, result.values.data(), gathered);
     result.status = reading.status;
-    result.bounds = bounds_of(from, view);
+    result.bounds = bounds_of(from, view, record.history.get());
     result.stamp = view.count == 0 ? Stamp::min() : from.cell->stamp(view, reading.first);
+    if (result.status == Status::kTooOld && record.history) {
+      gathered = {};
+      result.status = read_past(from, *record.history, time, result.values.data(), gathered);
+      if (result.status == Status::kBusy) continue;
+      if (const auto found = record.history->find(time)) {
+        result.stamp = record.history->by_time[*found]->stamp;
+      }
+    }
     result.freshness = gathered.at(time);
     if (view.count == 0 || record.cell->intact(view, reading.first, from.as_of)) return result;
   }
@@ -113,14 +123,27 @@ void write_as_one(WorldImpl& world, Stamp stamp, const std::vector<Pending>& pen
   for (const Pending& one : pending) one.cell->finish();
 }
 
+// The last value and its blocks, for others of the same stamp. Readers of the measurement wait from
+// before the blocks change until after, so nobody sees the old value beside a new block.
+void replace_last(WorldImpl& world, const MeasurementRecord& record, Cell& cell, Stamp stamp,
+                  const std::vector<double>& values) {
+  std::vector<Pending> blocks;
+  add_pending(record, values, blocks);
+  blocks.pop_back();  // the measurement itself
+  const Epoch epoch = world.epoch.load(std::memory_order_relaxed);
+  SpareOnDemand spare(cell, *world.family, epoch);
+  cell.begin_replacing(epoch, spare.ring);
+  write_as_one(world, stamp, blocks);
+  cell.finish_replacing(stamp, values.data());
+}
+
 void remember(WorldImpl& world, MeasurementId measurement, Stamp stamp,
               const std::vector<double>& values, std::string_view provenance) {
   const std::shared_ptr<const History> before = world.state.measurements[measurement.index].history;
   if (!before) return;
   History next = *before;
-  next.entries.push_back(
-      std::make_shared<const HistoryEntry>(HistoryEntry{stamp, values, std::string(provenance)}),
-      fresh_token());
+  append(next, std::make_shared<const HistoryEntry>(
+                   HistoryEntry{stamp, values, std::string(provenance)}));
   State state = world.published();
   state.measurements.edit(measurement.index, fresh_token()).history =
       std::make_shared<const History>(std::move(next));
@@ -141,9 +164,11 @@ Status write_values(WorldImpl& world, MeasurementId measurement, Stamp stamp,
   if (constant && view.count > 0) return Status::kStatic;
   const MeasurementRecord& record = world.state.measurements[measurement.index];
   if (view.count > 0 && stamp <= cell.stamp(view, view.count - 1)) {
-    // Blocks hold the last value; a past one does not touch them, and the last one has no new
-    // stamp.
-    if (record.blocks && stamp == cell.stamp(view, view.count - 1)) return Status::kOutOfOrder;
+    // Blocks hold the last value: one further back does not touch them.
+    if (record.blocks && stamp == cell.stamp(view, view.count - 1)) {
+      replace_last(world, record, cell, stamp, values);
+      return Status::kOk;
+    }
     SpareOnDemand spare(cell, *world.family, epoch);
     return cell.correct(stamp, values.data(), epoch, spare.ring) ? Status::kOk : Status::kTooLate;
   }
@@ -179,7 +204,11 @@ const DataBlock& block_of(const WorldImpl& world, const MeasurementRecord& recor
 Status write_checked(WorldImpl& world, MeasurementId measurement, Stamp stamp,
                      const std::vector<double>& values, std::string_view provenance) {
   if (is_full(world, measurement)) return Status::kFull;
-  const Status status = write_values(world, measurement, stamp, values);
+  Status status = write_values(world, measurement, stamp, values);
+  // Too late for the ring, but not for who keeps everything.
+  const std::shared_ptr<const History>& history =
+      world.state.measurements[measurement.index].history;
+  if (status == Status::kTooLate && history && stamp > history->let_go_until) status = Status::kOk;
   if (status == Status::kOk) remember(world, measurement, stamp, values, provenance);
   return status;
 }
@@ -289,6 +318,22 @@ Status World::read_blocks(MeasurementId measurement, std::span<const BlockBuffer
     if (whole) return Status::kOk;
   }
   return Status::kBusy;
+}
+
+Status World::read_blocks_at(MeasurementId measurement, Stamp time,
+                             std::span<const BlockBuffer> buffers) const {
+  const State state = impl_->published();
+  const MeasurementRecord& record = alive(*impl_, state, measurement);
+  for (const BlockBuffer& buffer : buffers) block_of(*impl_, record, buffer.block, buffer.size);
+  const Sample canonical = at(measurement, time);
+  if (canonical.status != Status::kOk) return canonical.status;
+  for (const BlockBuffer& buffer : buffers) {
+    const DataBlock& block = record.blocks->blocks[buffer.block];
+    std::vector<double> numbers(block.words());
+    convert(block, canonical.values.data(), numbers.data());
+    std::memcpy(buffer.value, numbers.data(), buffer.size);
+  }
+  return Status::kOk;
 }
 
 World::Sample World::latest(MeasurementId measurement, Stamp now) const {

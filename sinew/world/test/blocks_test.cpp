@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -166,6 +167,111 @@ TEST(Blocks, RealtimeHandlesKeepThemConsistentAndAllocateNothing) {
       break;
     }
   }
+}
+
+// Whoever corrects the last value corrects all its forms, with a handle or without.
+TEST(Blocks, AreCorrectedWithTheLastValue) {
+  for (const bool by_handle : {false, true}) {
+    Scene s;
+    std::mt19937_64 random(5);
+    std::optional<Writer> writer;
+    if (by_handle) writer.emplace(s.world.claim(s.pose, {"robot"}));
+    PreparedPose query =
+        s.world.prepare_pose({.of = s.b, .with_respect_to = s.a, .avoid = {s.joint}});
+    std::vector<Pose> history;
+    for (int i = 1; i < 60; ++i) {
+      Pose X = random_pose(random);
+      ASSERT_EQ(
+          by_handle ? writer->write(at_ns(10 * i), X) : s.world.write(s.pose, at_ns(10 * i), X, {}),
+          Status::kOk);
+      const World before = s.world.clone();
+      const Pose old = X;
+      if (i % 3 != 0) {
+        X = random_pose(random);
+        const std::array<double, 16> matrix = in_millimetres(X);
+        const std::size_t allocated = allocations();
+        const Status status =
+            i % 3 == 1
+                ? (by_handle ? writer->correct(at_ns(10 * i), X)
+                             : s.world.write(s.pose, at_ns(10 * i), X, {}))
+                : (by_handle ? writer->correct_block(0, at_ns(10 * i), matrix.data(), sizeof matrix)
+                             : s.world.write_block(s.pose, 0, at_ns(10 * i), matrix.data(),
+                                                   sizeof matrix, {}));
+        ASSERT_EQ(status, Status::kOk);
+        if (by_handle) {
+          EXPECT_EQ(allocations(), allocated);
+        }
+      }
+      history.push_back(X);
+      // One further back: its forms then are made from it, the blocks of now stay.
+      if (i > 5) {
+        history[static_cast<std::size_t>(i - 3)] = random_pose(random);
+        const Pose& Y = history[static_cast<std::size_t>(i - 3)];
+        ASSERT_EQ(by_handle ? writer->correct(at_ns(10 * (i - 2)), Y)
+                            : s.world.write(s.pose, at_ns(10 * (i - 2)), Y, {}),
+                  Status::kOk);
+      }
+      const auto shows = [&](const World& in, const Pose& expected) {
+        std::array<double, 16> read;
+        double plain[7];
+        const World::BlockBuffer both[] = {{0, read.data(), sizeof read}, {1, plain, sizeof plain}};
+        Stamp stamp;
+        ASSERT_EQ(in.read_blocks(s.pose, both, &stamp), Status::kOk);
+        EXPECT_EQ(stamp, at_ns(10 * i));
+        const std::array<double, 16> matrix = in_millimetres(expected);
+        for (std::size_t k = 0; k < 16; ++k) EXPECT_NEAR(read[k], matrix[k], 1e-10) << k;
+        EXPECT_NEAR(plain[4], expected.p.x, 1e-12);
+        EXPECT_NEAR(in.latest(s.pose, at_ns(10 * i)).values[4], expected.p.x, 1e-12);
+      };
+      shows(s.world, X);
+      shows(before, old);  // the clone has what it had
+      EXPECT_LT(difference(query.latest(at_ns(10 * i)).pose, X), 1e-12);
+      for (int back = 1; back <= std::min(i, 10); ++back) {
+        std::array<double, 16> then;
+        const World::BlockBuffer one[] = {{0, then.data(), sizeof then}};
+        ASSERT_EQ(
+            s.world.read_blocks_at(s.pose, at_ns(10 * back + 10 * (i - std::min(i, 10))), one),
+            Status::kOk);
+        const std::array<double, 16> expected =
+            in_millimetres(history[static_cast<std::size_t>(back + i - std::min(i, 10) - 1)]);
+        for (std::size_t k = 0; k < 16; ++k) EXPECT_NEAR(then[k], expected[k], 1e-10);
+      }
+    }
+    EXPECT_EQ(s.world.read_blocks_at(s.pose, at_ns(100000), {}), Status::kTooNew);
+  }
+}
+
+// While the last value is corrected again and again, no reader sees one form of one value and
+// another of the next.
+TEST(Blocks, AgreeWhileTheLastValueIsCorrected) {
+  Scene s;
+  Writer writer = s.world.claim(s.pose, {"robot"});
+  ASSERT_EQ(writer.write(at_ns(1), Pose{}), Status::kOk);
+  std::atomic<bool> stop = false;
+  std::thread correcting([&] {
+    for (int i = 0; !stop; ++i) {
+      writer.correct(at_ns(1), Pose{{}, {static_cast<double>(i), 0, 0}});
+      if (i % 16 == 0) std::this_thread::yield();
+    }
+  });
+  int read = 0, disagreed = 0, backwards = 0;
+  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
+  while (std::chrono::steady_clock::now() < until) {
+    std::array<double, 16> matrix;
+    double plain[7];
+    const World::BlockBuffer both[] = {{0, matrix.data(), sizeof matrix}, {1, plain, sizeof plain}};
+    if (s.world.read_blocks(s.pose, both) != Status::kOk) continue;
+    ++read;
+    if (std::abs(matrix[3] - 1000 * plain[4]) > 1e-6) ++disagreed;
+    // What a block has shown, the measurement does not take back.
+    const World::Sample own = s.world.latest(s.pose, at_ns(1));
+    if (own.status == Status::kOk && own.values[4] < plain[4]) ++backwards;
+  }
+  stop = true;
+  correcting.join();
+  EXPECT_GT(read, 100);
+  EXPECT_EQ(disagreed, 0);
+  EXPECT_EQ(backwards, 0);
 }
 
 TEST(Blocks, AgreeAtEveryInstant) {
