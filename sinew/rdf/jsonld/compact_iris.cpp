@@ -198,13 +198,20 @@ std::string_view Compactor::compact_iri(const Context& active, std::string_view 
   if (vocab && active.vocab.has_text() && iri.size() > active.vocab.text.size() &&
       iri.starts_with(active.vocab.text)) {
     const std::string_view suffix = iri.substr(active.vocab.text.size());
-    if (active.terms.find(suffix) == nullptr) return suffix;
+    // A colon would make an IRI of it, an @ a keyword.
+    if (active.terms.find(suffix) == nullptr && suffix.find(':') == std::string_view::npos &&
+        !has_keyword_form(suffix)) {
+      return suffix;
+    }
   }
 
   std::string best;
   for (const InverseContext::Prefix& prefix : inverse_context.prefixes()) {
     if (iri.size() <= prefix.iri.size() || !iri.starts_with(prefix.iri)) continue;
-    const std::string candidate = fmt::format("{}:{}", prefix.term, iri.substr(prefix.iri.size()));
+    const std::string_view suffix = iri.substr(prefix.iri.size());
+    // Behind "PREFIX:", "//" would make an IRI of it.
+    if (suffix.starts_with("//") || prefix.term == "_") continue;
+    const std::string candidate = fmt::format("{}:{}", prefix.term, suffix);
     if (!best.empty() && !shorter_or_first(candidate, best)) continue;
     const TermDefinition* taken = active.terms.find(candidate);
     if (taken == nullptr || (taken->iri == iri && value == nullptr)) best = candidate;

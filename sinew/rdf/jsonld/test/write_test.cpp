@@ -86,6 +86,14 @@ TEST_F(Writing, UsesTermsAndPlainValues) {
   EXPECT_EQ(rdf::compare_quads(quads_, read(write()), terms_).difference, "");
 }
 
+// ex://twice, short for it, is no compact IRI but an IRI with an authority.
+TEST_F(Writing, DoesNotAbbreviateWhatWouldReadBackAsAnotherIri) {
+  add("arm", "parts", iri("//twice"));
+  const std::string text = write();
+  EXPECT_NE(text.find("\"https://example.org///twice\""), std::string::npos) << text;
+  EXPECT_EQ(read(text), quads_);
+}
+
 TEST_F(Writing, KeepsEveryDoubleExactly) {
   for (const double value : {0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -0.0, 1e22, 1e21,
                              123456789.0, 0.30000000000000004, std::nextafter(1.0, 2.0)}) {
