@@ -8,8 +8,10 @@
 #include <fstream>
 
 #include "compare.h"
+#include "humanoid_urdf.h"
 #include "question.h"
 #include "random_urdf.h"
+#include "temporary_urdf.h"
 
 namespace sinew::test {
 namespace {
@@ -106,35 +108,43 @@ TEST(Agreement, OfRandomTreesWithKdlMujocoAndDart) {
   std::filesystem::remove(file);
 }
 
+void expect_agreement_of_floating(const Robot& robot, unsigned states) {
+  SCOPED_TRACE(robot.name);
+  Question rnea(robot, "rnea", true), aba(robot, "aba", true), crba(robot, "crba", true);
+  const peers::Setup setup{robot.urdf, rnea.joints(), true, {0, 0, -9.81}};
+  const auto mujoco = peers::make_mujoco(setup), dart = peers::make_dart(setup);
+  double force_error = 0, acceleration_error = 0, mass_error = 0;
+  for (unsigned seed = 0; seed < states; ++seed) {
+    const peers::State state = random_state(rnea.joints().size(), seed, true);
+    const peers::Vector force = rnea.answer(state), acceleration = aba.answer(state, force);
+    for (const auto& other : {mujoco.get(), dart.get()}) {
+      force_error = std::max(force_error, difference(force, other->inverse_dynamics(state)));
+      if (seed >= 50) continue;
+      mass_error = std::max(mass_error, difference(crba.answer(state), other->mass_matrix(state)));
+    }
+    acceleration_error = std::max(acceleration_error, difference(acceleration, state.acceleration));
+  }
+  EXPECT_LT(force_error, 1e-9);
+  EXPECT_LT(acceleration_error, 1e-8);
+  EXPECT_LT(mass_error, 1e-8);
+}
+
 // The first links of these have mass, as a body that floats must.
 TEST(Agreement, OfFloatingRobotsWithMujocoAndDart) {
   const auto robots = published_robots();
   if (robots.empty()) GTEST_SKIP() << "there are no robots in " SINEW_SHARED_DIR;
   for (const Robot& robot : robots) {
-    if (robot.name != "hyq.urdf" && robot.name != "clean/hyq.urdf" &&
-        robot.name != "gen3_7dof.urdf" && robot.name != "iiwa.urdf") {
-      continue;
+    if (robot.name == "hyq.urdf" || robot.name == "clean/hyq.urdf" ||
+        robot.name == "gen3_7dof.urdf" || robot.name == "iiwa.urdf") {
+      expect_agreement_of_floating(robot, kStates);
     }
-    SCOPED_TRACE(robot.name);
-    Question rnea(robot, "rnea", true), aba(robot, "aba", true), crba(robot, "crba", true);
-    const peers::Setup setup{robot.urdf, rnea.joints(), true, {0, 0, -9.81}};
-    const auto mujoco = peers::make_mujoco(setup), dart = peers::make_dart(setup);
-    double force_error = 0, acceleration_error = 0, mass_error = 0;
-    for (unsigned seed = 0; seed < kStates; ++seed) {
-      const peers::State state = random_state(rnea.joints().size(), seed, true);
-      const peers::Vector force = rnea.answer(state), acceleration = aba.answer(state, force);
-      for (const auto& other : {mujoco.get(), dart.get()}) {
-        force_error = std::max(force_error, difference(force, other->inverse_dynamics(state)));
-        if (seed >= 50) continue;
-        mass_error =
-            std::max(mass_error, difference(crba.answer(state), other->mass_matrix(state)));
-      }
-      acceleration_error =
-          std::max(acceleration_error, difference(acceleration, state.acceleration));
-    }
-    EXPECT_LT(force_error, 1e-9);
-    EXPECT_LT(acceleration_error, 1e-8);
-    EXPECT_LT(mass_error, 1e-8);
+  }
+}
+
+TEST(Agreement, OfHumanoidsWithMujocoAndDart) {
+  for (const std::uint32_t seed : {1U, 2U}) {
+    const TemporaryUrdf humanoid(humanoid_urdf(seed), "humanoid");
+    expect_agreement_of_floating(humanoid.robot(), 20);
   }
 }
 

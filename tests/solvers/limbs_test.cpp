@@ -4,6 +4,7 @@
 #include <random>
 
 #include "compare.h"
+#include "humanoid_urdf.h"
 #include "question.h"
 #include "sinew/backend/c_target.h"
 #include "sinew/backend/compile.h"
@@ -11,6 +12,7 @@
 #include "sinew/backend/jit.h"
 #include "sinew/program/limbs/limb_program.h"
 #include "sinew/program/scalar_program.h"
+#include "temporary_urdf.h"
 
 namespace sinew::test {
 namespace {
@@ -43,8 +45,7 @@ TEST(Limbs, LegsAndArmsComputeSideBySideWhatTheyComputeOneByOne) {
     ASSERT_TRUE(limbs.has_value());
     // Four legs are a vector, two arms are half of one; what is left is the trunk.
     const auto lanes = limbs->operations();
-    EXPECT_LT(lanes.add + lanes.multiply,
-              (c.floating ? 0.45 : 0.6) * (count.add + count.multiply));
+    EXPECT_LT(lanes.add + lanes.multiply, (c.floating ? 0.45 : 0.6) * (count.add + count.multiply));
     backend::Interpreter interpreter(scalar.program);
     std::mt19937 random(2);
     std::uniform_real_distribution<> number(-1, 1);
@@ -53,6 +54,35 @@ TEST(Limbs, LegsAndArmsComputeSideBySideWhatTheyComputeOneByOne) {
       for (double& x : in) x = number(random);
       interpreter.evaluate(in.data(), expected.data());
       EXPECT_LT(difference(program::evaluate(*limbs, in), expected), 1e-11);
+    }
+  }
+}
+
+// A spine looks like a leg as far as it goes, and its head like a hand: neither may keep the two
+// legs and the two arms from being found.
+TEST(Limbs, BothArmsAndBothLegsOfAHumanoidAreFound) {
+  for (const std::uint32_t seed : {1U, 2U}) {
+    const TemporaryUrdf humanoid(humanoid_urdf(seed));
+    for (const std::string solver : {"fpk", "jacobian", "rnea", "aba", "crba"}) {
+      SCOPED_TRACE(solver);
+      const Question question(humanoid.robot(), solver, true);
+      const program::ScalarProgram scalar = program::scalar_program(question.program());
+      const auto count = program::count_operations(scalar.computation);
+      const auto limbs = program::limb_program(scalar.program, count);
+      ASSERT_TRUE(limbs.has_value());
+      // 13 joints in two lanes, 4 in the trunk.
+      const auto lanes = limbs->operations();
+      EXPECT_EQ(lanes.sincos, solver == "jacobian" ? 14U : 17U);
+      EXPECT_LT(lanes.add + lanes.multiply, 0.68 * (count.add + count.multiply));
+      backend::Interpreter interpreter(scalar.program);
+      std::mt19937 random(2);
+      std::uniform_real_distribution<> number(-1, 1);
+      for (int state = 0; state < 20; ++state) {
+        peers::Vector in(interpreter.in_size()), expected(interpreter.out_size());
+        for (double& x : in) x = number(random);
+        interpreter.evaluate(in.data(), expected.data());
+        EXPECT_LT(difference(program::evaluate(*limbs, in), expected), 1e-11);
+      }
     }
   }
 }

@@ -25,29 +25,100 @@ Colour mix(Colour colour, Colour more) {
 
 Colour of_text(const std::string& text) { return std::hash<std::string>{}(text); }
 
-// Closures that look alike get the same colour: what they do, and how their arguments came about.
-std::vector<Colour> colours(const Program& program) {
-  std::vector<Colour> of_variable(program.variables.size());
-  for (std::size_t i = 0; i < of_variable.size(); ++i) {
-    const Variable& v = program.variables[i];
-    of_variable[i] = mix(mix(of_text(v.quantity), v.size), static_cast<Colour>(v.role));
+// Colours of a program's closures: those that look alike have the same one.
+class Colours {
+ public:
+  explicit Colours(const Program& program)
+      : program_(program), colour_(program.closures.size(), 0) {}
+
+  // By what closures do and how their arguments came about, then also by what becomes of their
+  // results: a spine looks like a leg as far as it goes, but it carries arms. Again as long as that
+  // tells more of them apart (refinement of colours, after Weisfeiler and Leman, 1968).
+  std::vector<Colour> refined() {
+    constexpr int kMaximumRounds = 16;
+    forward();
+    for (int round = 0; round < kMaximumRounds; ++round) {
+      const std::size_t before = members_.size();
+      backward();
+      forward();
+      if (members_.size() == before) break;
+    }
+    return colour_;
   }
-  std::vector<Colour> result(program.closures.size(), 0);
-  for (const std::uint32_t index : program.schedule) {
-    const Closure& closure = program.closures[index];
+
+ private:
+  // Calls visit(variable, is output, port).
+  template <typename Visit>
+  void for_arguments(const Closure& closure, Visit visit) const {
     const Kernel& kernel = *find_kernel(closure.operation);
-    Colour colour = mix(of_text(closure.operation), of_text(closure.step));
     const std::size_t count = closure.arguments.size();
     for (std::size_t i = 0; i < count; ++i) {
-      if (!kernel.port(i, count).output) colour = mix(colour, of_variable[closure.arguments[i]]);
-    }
-    result[index] = colour;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (kernel.port(i, count).output) of_variable[closure.arguments[i]] = mix(colour, i);
+      visit(closure.arguments[i], kernel.port(i, count).output, i);
     }
   }
-  return result;
-}
+
+  void forward() {
+    std::vector<Colour> of_variable(program_.variables.size());
+    for (std::size_t i = 0; i < of_variable.size(); ++i) {
+      const Variable& v = program_.variables[i];
+      of_variable[i] = mix(mix(of_text(v.quantity), v.size), static_cast<Colour>(v.role));
+    }
+    for (const std::uint32_t index : program_.schedule) {
+      const Closure& closure = program_.closures[index];
+      Colour colour = mix(mix(colour_[index], of_text(closure.operation)), of_text(closure.step));
+      for_arguments(closure, [&](std::uint32_t variable, bool output, std::size_t) {
+        if (!output) colour = mix(colour, of_variable[variable]);
+      });
+      colour_[index] = colour;
+      for_arguments(closure, [&](std::uint32_t variable, bool output, std::size_t port) {
+        if (output) of_variable[variable] = mix(colour, port);
+      });
+    }
+    count();
+  }
+
+  // A closure like no other is of the trunk. Where several limbs end in the trunk, they are summed
+  // up one after the other: what becomes of a term is what becomes of the sum, and of a closure of
+  // the trunk only its operation counts, not the place.
+  void backward() {
+    std::vector<Colour> of_variable(program_.variables.size());
+    for (std::size_t i = 0; i < of_variable.size(); ++i) {
+      of_variable[i] = program_.variables[i].output ? 1 : 0;
+    }
+    for (std::size_t k = program_.schedule.size(); k-- > 0;) {
+      const std::uint32_t index = program_.schedule[k];
+      const Closure& closure = program_.closures[index];
+      const bool unique = members_[colour_[index]] < 2;
+      Colour results = 0;
+      for_arguments(closure, [&](std::uint32_t variable, bool output, std::size_t port) {
+        if (output)
+          results += is_sum(closure) ? of_variable[variable] : mix(of_variable[variable], port);
+      });
+      const Colour use = is_sum(closure) ? results
+                         : unique        ? of_text(closure.operation)
+                                         : mix(colour_[index], results);
+      if (!unique) colour_[index] = mix(colour_[index], results);
+      // Users come in any order.
+      for_arguments(closure, [&](std::uint32_t variable, bool output, std::size_t port) {
+        if (!output) of_variable[variable] += is_sum(closure) || unique ? use : mix(use, port);
+      });
+    }
+    count();
+  }
+
+  static bool is_sum(const Closure& closure) {
+    return closure.operation.starts_with("accumulate-") || closure.operation == "add-energy";
+  }
+
+  void count() {
+    members_.clear();
+    for (const std::uint32_t index : program_.schedule) ++members_[colour_[index]];
+  }
+
+  const Program& program_;
+  std::vector<Colour> colour_;
+  std::unordered_map<Colour, std::uint32_t> members_;
+};
 
 // Sets of closures, joined one by one.
 class Sets {
@@ -67,7 +138,7 @@ class Sets {
 
 Limbs find_limbs(const Program& program) {
   const std::size_t n = program.closures.size();
-  const std::vector<Colour> colour = colours(program);
+  const std::vector<Colour> colour = Colours(program).refined();
   std::unordered_map<Colour, std::uint32_t> members;
   for (const std::uint32_t index : program.schedule) ++members[colour[index]];
   const auto in_trunk = [&](std::uint32_t index) { return members[colour[index]] < 2; };
