@@ -47,11 +47,13 @@ struct Timing {
   double single_ns = 0, batch_ns = 0;
 };
 
-Timing measure(const backend::JitFunction& function, std::size_t inputs, std::size_t results) {
+template <typename Number>
+Timing measure(const backend::BasicJitFunction<Number>& function, std::size_t inputs,
+               std::size_t results) {
   std::mt19937 random(1);
-  std::uniform_real_distribution<> number(-1, 1);
-  std::vector<double> in(inputs * kStates), out(results * kStates);
-  for (double& x : in) x = number(random);
+  std::uniform_real_distribution<Number> number(-1, 1);
+  std::vector<Number> in(inputs * kStates), out(results * kStates);
+  for (Number& x : in) x = number(random);
   Timing timing;
   timing.single_ns = least_ns([&] {
     for (std::size_t k = 0; k < kStates; ++k) {
@@ -72,12 +74,15 @@ int run_bench(Arguments arguments) {
       "sinew bench");
   ModelOptions models_options;
   QueryOptions query;
-  std::string format = "text", level = "full";
+  std::string format = "text", level = "full", scalar = "double";
   add_model_options(app, models_options);
   add_query_options(app, query);
   add_derivative_option(app, query);
   app.add_option("--format", format, "text or json")
       ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
+  app.add_option("--scalar", scalar, "Type of all numbers: double or float")
+      ->check(CLI::IsMember({"double", "float"}))
       ->capture_default_str();
   app.add_option("--level", level, "Effort of the compiler: fast or full")
       ->check(CLI::IsMember({"fast", "full"}))
@@ -92,6 +97,7 @@ int run_bench(Arguments arguments) {
   backend::COptions options;
   options.name = program.name;
   options.source = describe(models_options, query);
+  if (scalar == "float") options.scalar = backend::Scalar::kFloat;
   const Clock::time_point c_start = Clock::now();
   const backend::GeneratedCode code = backend::generate_c(program, options);
   const double to_c_ms = to_program_ms + since_ms(c_start);
@@ -116,17 +122,31 @@ int run_bench(Arguments arguments) {
 
   std::string why;
   if (backend::jit_available(&why)) {
-    const Clock::time_point jit_start = Clock::now();
-    const program::ScalarProgram scalar = program::scalar_program(program);
-    const backend::JitFunction function = backend::jit_compile(
-        scalar, {level == "fast" ? backend::JitLevel::kFast : backend::JitLevel::kFull, ""});
-    report["model_to_code_ms"] = to_program_ms + since_ms(jit_start);
-    const Timing timing =
-        measure(function, scalar.computation.inputs, scalar.computation.results.size());
-    report["ns_single"] = timing.single_ns;
-    report["ns_batch"] = timing.batch_ns;
-    report["code_bytes"] = function.code_bytes();
-    report["batch_code_bytes"] = function.batch_code_bytes();
+    const backend::JitLevel effort =
+        level == "fast" ? backend::JitLevel::kFast : backend::JitLevel::kFull;
+    const auto add = [&](auto&& with) {
+      // To the first call of one sample; the function for batches comes on top.
+      const Clock::time_point jit_start = Clock::now();
+      const program::ScalarProgram numbers = program::scalar_program(program);
+      static_cast<void>(with(numbers, {effort, "", false}));
+      report["model_to_code_ms"] = to_program_ms + since_ms(jit_start);
+      const auto function = with(numbers, {effort, "", true});
+      const Timing timing =
+          measure(function, numbers.computation.inputs, numbers.computation.results.size());
+      report["ns_single"] = timing.single_ns;
+      report["ns_batch"] = timing.batch_ns;
+      report["code_bytes"] = function.code_bytes();
+      report["batch_code_bytes"] = function.batch_code_bytes();
+    };
+    if (scalar == "float") {
+      add([](const program::ScalarProgram& p, const backend::JitOptions& o) {
+        return backend::jit_compile_float(p, o);
+      });
+    } else {
+      add([](const program::ScalarProgram& p, const backend::JitOptions& o) {
+        return backend::jit_compile(p, o);
+      });
+    }
   } else {
     std::cerr << "sinew bench: no times: " << why << "\n";
   }

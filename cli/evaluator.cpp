@@ -12,7 +12,7 @@ Evaluator::Evaluator(const program::Program& program, How how, backend::JitLevel
     interpreter_.emplace(program);
     return;
   }
-  function_ = backend::jit_compile(program::scalar_program(program), {level, ""});
+  function_ = backend::jit_compile(program::scalar_program(program), {level, "", false});
   in_and_state_.resize(interface_.in_size + interface_.state_size);
   out_and_state_.resize(interface_.out_size + interface_.state_size);
   for (const program::Slot& slot : interface_.states) {

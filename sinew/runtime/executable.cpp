@@ -60,7 +60,7 @@ Pure pure_of(const program::Segment& segment, Storage& storage, const PrepareOpt
   }
   pure.code = backend::jit_compile(
       program::scalar_program(segment.program),
-      {options.fast ? backend::JitLevel::kFast : backend::JitLevel::kFull, ""});
+      {options.fast ? backend::JitLevel::kFast : backend::JitLevel::kFull, "", false});
   return pure;
 }
 

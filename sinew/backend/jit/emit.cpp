@@ -98,13 +98,13 @@ class ComputationEmitter {
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     if (nodes.empty()) return;
-    if (ir_.lanes() >= kBatchLanes) {
+    if (ir_.lanes() >= kSineLanes) {
       std::vector<LLVMValueRef> angles;
-      for (const std::uint32_t node : nodes) angles.push_back(value(node));
+      for (const std::uint32_t node : nodes) angles.push_back(ir_.to_double(value(node)));
       const SincosValues values = emit_sincos(builder_, function_, repair_, angles, fuse_);
       for (std::size_t i = 0; i < nodes.size(); ++i) {
-        sine_[nodes[i]] = values.sine[i];
-        cosine_[nodes[i]] = values.cosine[i];
+        sine_[nodes[i]] = ir_.from_double(values.sine[i]);
+        cosine_[nodes[i]] = ir_.from_double(values.cosine[i]);
       }
       return;
     }
@@ -131,9 +131,9 @@ class ComputationEmitter {
       LLVMValueRef packed = LLVMConstNull(LLVMVectorType(number, width));
       for (std::size_t i = 0; i < count; ++i) {
         const std::size_t at = first + i;
-        packed = LLVMBuildInsertElement(
-            builder_, packed, lane_of(value(nodes[at / lanes]), static_cast<unsigned>(at % lanes)),
-            integer(i), "");
+        const LLVMValueRef angle =
+            lane_of(ir_.to_double(value(nodes[at / lanes])), static_cast<unsigned>(at % lanes));
+        packed = LLVMBuildInsertElement(builder_, packed, angle, integer(i), "");
       }
       const SincosValues values = emit_sincos(builder_, function_, repair_, {packed}, fuse_);
       for (std::size_t i = 0; i < count; ++i) {
@@ -143,13 +143,13 @@ class ComputationEmitter {
       first += count;
     }
     const auto joined = [&](const std::vector<LLVMValueRef>& parts, std::size_t node) {
-      if (lanes == 1) return parts[node];
-      LLVMValueRef vector = LLVMGetUndef(ir_.type());
+      if (lanes == 1) return ir_.from_double(parts[node]);
+      LLVMValueRef vector = LLVMGetUndef(LLVMVectorType(number, lanes));
       for (unsigned lane = 0; lane < lanes; ++lane) {
         vector =
             LLVMBuildInsertElement(builder_, vector, parts[node * lanes + lane], integer(lane), "");
       }
-      return vector;
+      return ir_.from_double(vector);
     };
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       sine_[nodes[i]] = joined(sines, i);
@@ -236,9 +236,10 @@ class ComputationEmitter {
 
   void emit_single_sine(std::uint32_t angle) {
     if (sine_[angle] != nullptr) return;
-    const SincosValues values = emit_sincos(builder_, function_, repair_, {value(angle)}, fuse_);
-    sine_[angle] = values.sine[0];
-    cosine_[angle] = values.cosine[0];
+    const SincosValues values =
+        emit_sincos(builder_, function_, repair_, {ir_.to_double(value(angle))}, fuse_);
+    sine_[angle] = ir_.from_double(values.sine[0]);
+    cosine_[angle] = ir_.from_double(values.cosine[0]);
   }
 
   const Computation& computation_;
@@ -257,25 +258,31 @@ class ComputationEmitter {
   std::vector<bool> fused_;  // by node: part of the one sum that needs it
 };
 
-// One sample, or with a stride kBatchLanes of them.
+// Bytes of a float or a double.
+unsigned bytes_of(LLVMTypeRef number) {
+  return LLVMGetTypeKind(number) == LLVMFloatTypeKind ? 4 : 8;
+}
+
+// One sample; with a stride, as many as the type has lanes.
 void emit_samples(const Computation& computation, const Place& place, LLVMTypeRef type,
                   LLVMValueRef stride) {
+  const LLVMTypeRef number = stride != nullptr ? LLVMGetElementType(type) : type;
   const LLVMContextRef context = LLVMGetTypeContext(type);
   const auto address = [&](unsigned parameter, std::size_t index) {
     LLVMValueRef offset = LLVMConstInt(LLVMInt64TypeInContext(context), index, false);
     if (stride != nullptr) offset = LLVMBuildMul(place.builder, offset, stride, "");
-    return LLVMBuildInBoundsGEP2(place.builder, LLVMDoubleTypeInContext(context),
-                                 LLVMGetParam(place.function, parameter), &offset, 1, "");
+    return LLVMBuildInBoundsGEP2(place.builder, number, LLVMGetParam(place.function, parameter),
+                                 &offset, 1, "");
   };
   const auto load = [&](std::uint32_t input) {
     const LLVMValueRef value = LLVMBuildLoad2(place.builder, type, address(0, input), "");
-    LLVMSetAlignment(value, 8);
+    LLVMSetAlignment(value, bytes_of(number));
     return value;
   };
   const std::vector<LLVMValueRef> results =
       ComputationEmitter(computation, place, type, load).emit();
   for (std::size_t i = 0; i < results.size(); ++i) {
-    LLVMSetAlignment(LLVMBuildStore(place.builder, results[i], address(1, i)), 8);
+    LLVMSetAlignment(LLVMBuildStore(place.builder, results[i], address(1, i)), bytes_of(number));
   }
   LLVMBuildRetVoid(place.builder);
 }
@@ -283,8 +290,8 @@ void emit_samples(const Computation& computation, const Place& place, LLVMTypeRe
 // One sample with its limbs side by side, region after region.
 class LimbEmitter {
  public:
-  LimbEmitter(const program::LimbProgram& program, const Place& place, LLVMContextRef context)
-      : program_(program), place_(place), number_(LLVMDoubleTypeInContext(context)) {}
+  LimbEmitter(const program::LimbProgram& program, const Place& place, LLVMTypeRef number)
+      : program_(program), place_(place), number_(number) {}
 
   void emit() {
     for (const program::LimbRegion& region : program_.regions) {
@@ -298,7 +305,7 @@ class LimbEmitter {
     }
     for (std::size_t i = 0; i < program_.results.size(); ++i) {
       LLVMSetAlignment(LLVMBuildStore(place_.builder, number(program_.results[i]), address(1, i)),
-                       8);
+                       bytes_of(number_));
     }
     LLVMBuildRetVoid(place_.builder);
   }
@@ -320,7 +327,7 @@ class LimbEmitter {
       case program::LimbSource::Kind::kCaller: {
         const LLVMValueRef value =
             LLVMBuildLoad2(place_.builder, number_, address(0, source.index), "");
-        LLVMSetAlignment(value, 8);
+        LLVMSetAlignment(value, bytes_of(number_));
         return value;
       }
       default:
@@ -388,9 +395,10 @@ void add_attribute(LLVMValueRef function, unsigned where, const char* name) {
 }  // namespace
 
 LLVMModuleRef emit_module(LLVMContextRef context, const program::Computation& computation,
-                          const program::LimbProgram* limbs, bool fuse) {
+                          const program::LimbProgram* limbs, const JitWanted& wanted, bool fuse) {
   const LLVMModuleRef module = LLVMModuleCreateWithNameInContext("sinew", context);
-  const LLVMTypeRef number = LLVMDoubleTypeInContext(context);
+  const LLVMTypeRef number =
+      wanted.is_float ? LLVMFloatTypeInContext(context) : LLVMDoubleTypeInContext(context);
   const LLVMTypeRef pointer = LLVMPointerTypeInContext(context, 0);
   const LLVMTypeRef size = LLVMInt64TypeInContext(context);
 
@@ -402,15 +410,20 @@ LLVMModuleRef emit_module(LLVMContextRef context, const program::Computation& co
     LLVMPositionBuilderAtEnd(builder, LLVMAppendBasicBlockInContext(context, function, "entry"));
     return Place{builder, function, repair, fuse};
   };
-  const LLVMValueRef one =
-      declare(module, limbs != nullptr ? kOneByOneName : kSingleName, {pointer, pointer});
-  emit_samples(computation, begin(one), number, nullptr);
-  const LLVMValueRef block = declare(module, kBlockName, {pointer, pointer, size});
-  emit_samples(computation, begin(block), LLVMVectorType(number, kBatchLanes),
-               LLVMGetParam(block, 2));
-  if (limbs != nullptr) {
-    const LLVMValueRef single = declare(module, kSingleName, {pointer, pointer});
-    LimbEmitter(*limbs, begin(single), context).emit();
+  const auto function = [&](const char* name) { return declare(module, name, {pointer, pointer}); };
+  if (limbs == nullptr) {
+    emit_samples(computation, begin(function(kSingleName)), number, nullptr);
+  } else {
+    LimbEmitter(*limbs, begin(function(kSingleName)), number).emit();
+  }
+  if (wanted.one_by_one) {
+    emit_samples(computation, begin(function(kOneByOneName)), number, nullptr);
+  }
+  if (wanted.block) {
+    constexpr unsigned kBlockBytes = 64;
+    const LLVMValueRef block = declare(module, kBlockName, {pointer, pointer, size});
+    emit_samples(computation, begin(block), LLVMVectorType(number, kBlockBytes / bytes_of(number)),
+                 LLVMGetParam(block, 2));
   }
   LLVMDisposeBuilder(builder);
   return module;

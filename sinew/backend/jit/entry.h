@@ -5,8 +5,15 @@
 
 namespace sinew::backend {
 
+// Which functions, on which numbers.
+struct JitWanted {
+  bool is_float = false;
+  bool block = true;
+  bool one_by_one = false;  // besides `single`, where that has its limbs side by side
+};
+
 using JitCompile = void(const program::Computation& computation, const program::LimbProgram* limbs,
-                        const JitOptions& options, JitFunction& result);
+                        const JitOptions& options, const JitWanted& wanted, JitCode& result);
 inline constexpr const char* kJitEntryName = "sinew_jit_compile";
 
 }  // namespace sinew::backend

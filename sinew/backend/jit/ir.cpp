@@ -20,6 +20,7 @@ Ir::Ir(LLVMBuilderRef builder, LLVMTypeRef type, bool fuse)
     : builder_(builder),
       context_(LLVMGetTypeContext(type)),
       type_(type),
+      element_type_(is_vector(type) ? LLVMGetElementType(type) : type),
       lanes_(is_vector(type) ? LLVMGetVectorSize(type) : 1),
       fuse_(fuse) {
   const LLVMTypeRef integer64 = LLVMInt64TypeInContext(context_);
@@ -27,7 +28,18 @@ Ir::Ir(LLVMBuilderRef builder, LLVMTypeRef type, bool fuse)
 }
 
 LLVMValueRef Ir::number(double value) const {
-  return in_every_lane(LLVMConstReal(LLVMDoubleTypeInContext(context_), value), type_);
+  return in_every_lane(LLVMConstReal(element_type_, value), type_);
+}
+
+LLVMValueRef Ir::to_double(LLVMValueRef a) const {
+  const LLVMTypeRef number = LLVMDoubleTypeInContext(context_);
+  if (element_type_ == number) return a;
+  return LLVMBuildFPExt(builder_, a, lanes_ == 1 ? number : LLVMVectorType(number, lanes_), "");
+}
+
+LLVMValueRef Ir::from_double(LLVMValueRef a) const {
+  if (element_type_ == LLVMDoubleTypeInContext(context_)) return a;
+  return LLVMBuildFPTrunc(builder_, a, type_, "");
 }
 
 LLVMValueRef Ir::integer(std::uint64_t value) const {

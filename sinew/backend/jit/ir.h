@@ -11,14 +11,18 @@ namespace sinew::backend {
 
 class Ir {
  public:
-  // `type`: double or a vector of doubles. `fuse`: multiply_add rounds once.
+  // `type`: double, float, or a vector of them; integers and their bits are for doubles only.
+  // `fuse`: multiply_add rounds once.
   Ir(LLVMBuilderRef builder, LLVMTypeRef type, bool fuse);
 
   LLVMContextRef context() const { return context_; }
   LLVMTypeRef type() const { return type_; }
   unsigned lanes() const { return lanes_; }
 
-  LLVMValueRef number(double value) const;  // in every lane
+  LLVMValueRef number(double value) const;  // in every lane; rounded where the type is float
+  // The same lanes as doubles, and back to the type; nothing where they are doubles.
+  LLVMValueRef to_double(LLVMValueRef a) const;
+  LLVMValueRef from_double(LLVMValueRef a) const;
   LLVMValueRef add(LLVMValueRef a, LLVMValueRef b) const;
   LLVMValueRef subtract(LLVMValueRef a, LLVMValueRef b) const;
   LLVMValueRef multiply(LLVMValueRef a, LLVMValueRef b) const;
@@ -51,6 +55,7 @@ class Ir {
   LLVMBuilderRef builder_;
   LLVMContextRef context_;
   LLVMTypeRef type_;
+  LLVMTypeRef element_type_;
   LLVMTypeRef integer_type_;
   unsigned lanes_;
   bool fuse_;

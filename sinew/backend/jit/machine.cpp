@@ -25,28 +25,7 @@
 
 namespace sinew::backend {
 
-struct JitFunctionMaker {
-  static JitFunction make(JitFunction::Single single, JitFunction::Single one_by_one,
-                          JitFunction::Block block, const program::Computation& computation,
-                          std::size_t code_bytes, std::size_t batch_code_bytes, bool from_cache,
-                          std::shared_ptr<void> code) {
-    JitFunction function;
-    function.single_ = single;
-    function.one_by_one_ = one_by_one;
-    function.block_ = block;
-    function.inputs_ = computation.inputs;
-    function.results_ = computation.results.size();
-    function.code_bytes_ = code_bytes;
-    function.batch_code_bytes_ = batch_code_bytes;
-    function.from_cache_ = from_cache;
-    function.code_ = std::move(code);
-    return function;
-  }
-};
-
 namespace {
-
-static_assert(kBatchLanes == JitFunction::kLanes);
 
 [[noreturn]] void fail(const std::string& what) {
   throw Error({{}, "", "LLVM refuses the program: " + what, "", Severity::kError, {}});
@@ -109,10 +88,11 @@ class Machine {
 
 // The object file of the computation's module.
 std::string compile_object(const program::Computation& computation,
-                           const program::LimbProgram* limbs, const Host& host, JitLevel level) {
+                           const program::LimbProgram* limbs, const JitWanted& wanted,
+                           const Host& host, JitLevel level) {
   const Machine machine(host, level);
   const LLVMContextRef context = LLVMContextCreate();
-  const LLVMModuleRef module = emit_module(context, computation, limbs, host.has_fma);
+  const LLVMModuleRef module = emit_module(context, computation, limbs, wanted, host.has_fma);
   LLVMSetTarget(module, host.triple.c_str());
   const LLVMTargetDataRef layout = LLVMCreateTargetDataLayout(machine.get());
   LLVMSetModuleDataLayout(module, layout);
@@ -226,7 +206,7 @@ class LinkedCode {
 
 extern "C" void sinew_jit_compile(const program::Computation& computation,
                                   const program::LimbProgram* limbs, const JitOptions& options,
-                                  JitFunction& result) {
+                                  const JitWanted& wanted, JitCode& result) {
   static const bool ready =
       LLVMInitializeNativeTarget() == 0 && LLVMInitializeNativeAsmPrinter() == 0;
   if (!ready) fail("it was built without this machine's target");
@@ -236,8 +216,11 @@ extern "C" void sinew_jit_compile(const program::Computation& computation,
   std::filesystem::path cached;
   bool from_cache = false;
   if (!options.cache_folder.empty()) {
-    const std::string machine = this_host.triple + this_host.cpu + this_host.features + "LLVM" +
-                                std::to_string(LLVM_VERSION_MAJOR);
+    std::string machine = this_host.triple + this_host.cpu + this_host.features + "LLVM" +
+                          std::to_string(LLVM_VERSION_MAJOR);
+    machine += wanted.is_float ? " float" : " double";
+    if (wanted.block) machine += " block";
+    if (wanted.one_by_one) machine += " one by one";
     cached =
         std::filesystem::path(options.cache_folder) /
         (content_hash(computation, limbs, machine + char('0' + static_cast<int>(options.level))) +
@@ -246,15 +229,19 @@ extern "C" void sinew_jit_compile(const program::Computation& computation,
     from_cache = function_bytes(object, kSingleName) > 0;
   }
   if (!from_cache) {
-    object = compile_object(computation, limbs, this_host, options.level);
+    object = compile_object(computation, limbs, wanted, this_host, options.level);
     if (!cached.empty()) write_cached(cached, object);
   }
   const auto code = std::make_shared<LinkedCode>(object);
-  const char* one_by_one = limbs != nullptr ? kOneByOneName : kSingleName;
-  result = JitFunctionMaker::make(
-      code->find<JitFunction::Single>(kSingleName), code->find<JitFunction::Single>(one_by_one),
-      code->find<JitFunction::Block>(kBlockName), computation, function_bytes(object, kSingleName),
-      function_bytes(object, kBlockName), from_cache, code);
+  result.single = code->find<void*>(kSingleName);
+  result.one_by_one = wanted.one_by_one ? code->find<void*>(kOneByOneName) : result.single;
+  result.code_bytes = function_bytes(object, kSingleName);
+  if (wanted.block) {
+    result.block = code->find<void*>(kBlockName);
+    result.batch_code_bytes = function_bytes(object, kBlockName);
+  }
+  result.from_cache = from_cache;
+  result.owner = code;
 }
 
 }  // namespace sinew::backend

@@ -31,31 +31,18 @@ bool same(const Node& x, const Node& y) {
 
 }  // namespace
 
-int arity(Op op) {
-  switch (op) {
-    case Op::kConstant:
-    case Op::kInput:
-      return 0;
-    case Op::kSqrt:
-    case Op::kSin:
-    case Op::kCos:
-      return 1;
-    case Op::kAdd:
-    case Op::kMultiply:
-    case Op::kDivide:
-    case Op::kLess:
-      return 2;
-    case Op::kFma:
-    case Op::kSelect:
-      return 3;
-  }
-  return 0;
-}
-
 Dag::Dag() : table_(1U << 10U, 0) {}
 
-void Dag::grow() {
-  table_.assign(table_.size() * 2, 0);
+void Dag::reserve(std::uint32_t nodes) {
+  nodes_.reserve(nodes);
+  std::size_t size = table_.size();
+  while (size < std::size_t{nodes} * 2) size *= 2;
+  if (size > table_.size()) rehash(size);
+}
+
+// Size: a power of two, at least twice the number of nodes.
+void Dag::rehash(std::size_t size) {
+  table_.assign(size, 0);
   const std::uint64_t mask = table_.size() - 1;
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
     std::uint64_t at = hash(nodes_[i]) & mask;
@@ -85,7 +72,7 @@ Ref Dag::intern(Node node) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back(node);
   table_[at] = index + 1;
-  if (nodes_.size() * 2 > table_.size()) grow();
+  if (nodes_.size() * 2 > table_.size()) rehash(table_.size() * 2);
   return Ref::of(index);
 }
 

@@ -53,7 +53,26 @@ struct Node {
 };
 
 // Number of operands that an operation takes.
-int arity(Op op);
+constexpr int arity(Op op) {
+  switch (op) {
+    case Op::kConstant:
+    case Op::kInput:
+      return 0;
+    case Op::kSqrt:
+    case Op::kSin:
+    case Op::kCos:
+      return 1;
+    case Op::kAdd:
+    case Op::kMultiply:
+    case Op::kDivide:
+    case Op::kLess:
+      return 2;
+    case Op::kFma:
+    case Op::kSelect:
+      return 3;
+  }
+  return 0;
+}
 
 class Dag {
  public:
@@ -63,6 +82,8 @@ class Dag {
   static constexpr double kCancellation = 1e-13;
 
   Dag();
+  // Room for so many nodes.
+  void reserve(std::uint32_t nodes);
 
   // The sum of two constants, without rounding noise.
   static double sum_of_constants(double x, double y);
@@ -94,7 +115,7 @@ class Dag {
 
  private:
   Ref intern(Node node);
-  void grow();
+  void rehash(std::size_t size);
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> table_;  // open addressing; node + 1, 0 is free

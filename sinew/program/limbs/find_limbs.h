@@ -24,9 +24,10 @@ struct Limbs {
 };
 
 // Closures correspond if they are the same operation of the same step, on arguments that correspond
-// (constants and inputs of the same kind do). A limb is a connected set of closures that have
-// correspondents; limbs with the same closures are a group. Of a group the result says only that
-// its limbs look alike: which limb reads which argument is for the caller to look up.
+// (constants and inputs of the same kind do), and what they compute is used alike; of several limbs
+// that are summed up, the place in the sum does not matter. A limb is a connected set of closures
+// that have correspondents; limbs with the same closures are a group. Of a group the result says
+// only that its limbs look alike: which limb reads which argument is for the caller to look up.
 Limbs find_limbs(const Program& program);
 
 }  // namespace sinew::program

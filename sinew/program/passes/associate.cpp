@@ -15,8 +15,8 @@ Ref Associator::sum(std::vector<SignedProduct> terms, double deadline) {
   std::vector<Ref> values;
   std::vector<Product> products;
   for (SignedProduct& term : terms) {
-    std::vector<Ref>& factors = term.factors;
-    if (association_ != Association::kPlain) {
+    auto& factors = term.factors;
+    if (association_ != Association::kPlain && factors.size() > 1) {
       // The factors that are ready first are multiplied first.
       std::stable_sort(factors.begin(), factors.end(),
                        [this](Ref a, Ref b) { return ready_.of(a) < ready_.of(b); });

@@ -6,12 +6,13 @@
 #include "sinew/program/dag/dag.h"
 #include "sinew/program/passes/latency.h"
 #include "sinew/program/passes/polynomials.h"
+#include "sinew/program/passes/small_list.h"
 
 namespace sinew::program {
 
 struct SignedProduct {
   double coefficient = 1.0;
-  std::vector<Ref> factors;
+  SmallList<Ref, 4> factors;
 };
 
 class Associator {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "sinew/program/passes/polynomials.h"
+#include "sinew/program/passes/small_list.h"
 
 namespace sinew::program {
 namespace {
@@ -18,9 +18,11 @@ struct Factor {
   auto operator<=>(const Factor&) const = default;
 };
 
+using FactorList = SmallList<Factor, 16>;
+
 // The factors that may be taken out of a term: at least one other has to stay.
-std::vector<Factor> factors_of(const Monomial& term) {
-  std::vector<Factor> factors;
+FactorList factors_of(const Monomial& term) {
+  FactorList factors;
   const bool scaled = std::abs(term.coefficient) != 1.0;
   if (term.factors.size() + (scaled ? 1 : 0) < 2) return factors;
   for (std::size_t k = 0; k < term.factors.size(); ++k) {
@@ -33,7 +35,7 @@ std::vector<Factor> factors_of(const Monomial& term) {
 }
 
 bool take_out(const Factor& factor, Monomial& term) {
-  const std::vector<Factor> factors = factors_of(term);
+  const FactorList factors = factors_of(term);
   if (std::find(factors.begin(), factors.end(), factor) == factors.end()) return false;
   if (factor.constant) {
     term.coefficient = term.coefficient < 0.0 ? -1.0 : 1.0;
@@ -44,23 +46,30 @@ bool take_out(const Factor& factor, Monomial& term) {
 }
 
 // Takes out the factor that most terms share, again and again. New sums are appended to the system
-// and looked at in their turn.
-void factor(Polynomials& system, std::uint32_t i) {
-  for (;;) {
+// and looked at in their turn. Returns whether there was one.
+bool factor(Polynomials& system, std::uint32_t i) {
+  bool changed = false;
+  for (;; changed = true) {
     std::vector<Monomial>& terms = system.polynomial[i].terms;
-    std::map<Factor, std::uint32_t> count;
+    FactorList all;
     for (const Monomial& term : terms) {
-      for (const Factor& f : factors_of(term)) ++count[f];
+      const FactorList of_term = factors_of(term);
+      all.append(of_term.begin(), of_term.end());
     }
+    std::sort(all.begin(), all.end());
+    // The smallest of those that occur most often.
     Factor best;
-    std::uint32_t best_count = 1;
-    for (const auto& [f, n] : count) {
-      if (n > best_count) {
-        best = f;
-        best_count = n;
+    std::size_t best_count = 1;
+    for (std::size_t from = 0; from < all.size();) {
+      std::size_t to = from;
+      while (to < all.size() && all[to] == all[from]) ++to;
+      if (to - from > best_count) {
+        best = all[from];
+        best_count = to - from;
       }
+      from = to;
     }
-    if (best_count < 2) return;
+    if (best_count < 2) return changed;
 
     Polynomial inside;
     inside.origin = system.polynomial[i].origin;
@@ -86,8 +95,11 @@ void factor(Polynomials& system, std::uint32_t i) {
 
 Computation factor_sums(Computation computation) {
   Polynomials system = read_polynomials(std::move(computation));
+  bool changed = false;
   for (std::uint32_t i = 0; i < system.polynomial.size(); ++i) {
-    if (system.is_polynomial[i] && system.polynomial[i].terms.size() > 1) factor(system, i);
+    if (system.is_polynomial[i] && system.polynomial[i].terms.size() > 1) {
+      changed |= factor(system, i);
+    }
   }
   return write_polynomials(system, Association::kPlain);
 }

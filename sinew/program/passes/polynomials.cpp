@@ -76,7 +76,7 @@ class Reader {
     if (taken_up(i) && system_.polynomial[i].terms.size() == 1) {
       const Monomial& inner = system_.polynomial[i].terms.front();
       monomial.coefficient *= inner.coefficient;
-      monomial.factors.insert(monomial.factors.end(), inner.factors.begin(), inner.factors.end());
+      monomial.factors.append(inner.factors.begin(), inner.factors.end());
       system_.polynomial[i].terms.clear();
     } else {
       monomial.factors.push_back(i);
@@ -97,6 +97,7 @@ class Writer {
         copy_(system.polynomial.size()) {
     done_.assign(copy_.size(), false);
     result_.inputs = system.graph.inputs;
+    result_.dag.reserve(static_cast<std::uint32_t>(copy_.size() + copy_.size() / 4));
   }
 
   Computation run() {
@@ -128,6 +129,7 @@ class Writer {
     if (system_.is_polynomial[i]) {
       const Polynomial& polynomial = system_.polynomial[i];
       std::vector<SignedProduct> terms;
+      terms.reserve(polynomial.terms.size());
       for (const Monomial& term : polynomial.terms) {
         SignedProduct product{term.coefficient, {}};
         for (const std::uint32_t factor : term.factors) product.factors.push_back(copy(factor));
@@ -196,6 +198,13 @@ std::vector<std::uint32_t> use_counts(const Polynomials& system) {
 
 void collect_terms(Polynomial& polynomial) {
   std::vector<Monomial>& terms = polynomial.terms;
+  // Mostly there is nothing to collect.
+  bool distinct = true;
+  for (std::size_t a = 0; a < terms.size() && distinct; ++a) {
+    distinct = terms[a].coefficient != 0.0;
+    for (std::size_t b = 0; b < a && distinct; ++b) distinct = terms[a].factors != terms[b].factors;
+  }
+  if (distinct) return;
   std::vector<Monomial> kept;
   for (Monomial& term : terms) {
     const auto same = std::find_if(kept.begin(), kept.end(), [&](const Monomial& other) {

@@ -8,14 +8,17 @@
 #include <vector>
 
 #include "sinew/program/dag/dag.h"
+#include "sinew/program/passes/small_list.h"
 
 namespace sinew::program {
 
 // coefficient * product of factors; the factors are numbers of nodes, sorted, repeated for powers.
 // Without factors it is a constant.
+using Factors = SmallList<std::uint32_t, 4>;
+
 struct Monomial {
   double coefficient = 1.0;
-  std::vector<std::uint32_t> factors;
+  Factors factors;
 };
 
 struct Polynomial {

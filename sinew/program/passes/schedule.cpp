@@ -1,8 +1,7 @@
 #include "sinew/program/passes/schedule.h"
 
 #include <algorithm>
-#include <queue>
-#include <set>
+#include <array>
 
 #include "sinew/program/dag/evaluate.h"
 #include "sinew/program/passes/latency.h"
@@ -45,49 +44,93 @@ class Scheduler {
   }
 
   std::vector<std::uint32_t> run() {
-    for (std::uint32_t i = 0; i < dag_.size(); ++i) {
-      if (live_[i] && missing_[i] == 0) ready_.insert(i);
-    }
+    const std::uint32_t n = dag_.size();
+    growth_.assign(n, 0);
+    state_.assign(n, State::kWaiting);
     std::vector<std::uint32_t> order;
-    while (!ready_.empty()) {
-      const std::uint32_t next = choose();
-      ready_.erase(next);
-      order.push_back(next);
-      const Node& node = dag_.node(next);
-      for_each_operand(node, [&](std::uint32_t operand) {
-        if (--unread_[operand] == 0 && in_register(dag_.node(operand).op)) --count_;
+    std::vector<std::uint32_t> free;  // constants and inputs: they come first
+    for (std::uint32_t i = 0; i < n; ++i) {
+      if (!live_[i]) continue;
+      growth_[i] = in_register(dag_.node(i).op) ? 1 : 0;
+      for_each_operand(dag_.node(i), [&](std::uint32_t operand) {
+        if (unread_[operand] == 1 && in_register(dag_.node(operand).op)) --growth_[i];
       });
-      if (in_register(node.op)) ++count_;
-      for (const std::uint32_t user : users_[next]) {
-        if (--missing_[user] == 0) ready_.insert(user);
-      }
+      if (missing_[i] == 0) free.push_back(i);
     }
-    return order;
+    for (const std::uint32_t i : free) take(i, order);
+    for (;;) {
+      const std::uint32_t next = choose();
+      if (next == kNone) return order;
+      take(next, order);
+    }
   }
 
  private:
-  // How many values more are live after the node.
-  int growth(std::uint32_t i) const {
-    int change = in_register(dag_.node(i).op) ? 1 : 0;
-    for_each_operand(dag_.node(i), [&](std::uint32_t operand) {
-      if (unread_[operand] == 1 && in_register(dag_.node(operand).op)) --change;
-    });
-    return change;
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+  static constexpr int kLeastGrowth = -2;  // frees three, needs one
+  static constexpr int kGrowths = 4;       // up to 1
+
+  enum class State : std::uint8_t { kWaiting, kReady, kDone };
+
+  // What the longest path waits for comes first, then the smaller number.
+  struct Later {
+    const std::vector<double>& tails;
+    bool operator()(std::uint32_t a, std::uint32_t b) const {
+      return tails[a] != tails[b] ? tails[a] < tails[b] : a > b;
+    }
+  };
+  using Queue = std::vector<std::uint32_t>;  // a heap; may hold nodes that are no longer in it
+
+  Queue& queue_of(std::uint32_t i) {
+    return ready_[static_cast<std::size_t>(growth_[i] - kLeastGrowth)];
+  }
+  void push(std::uint32_t i) {
+    state_[i] = State::kReady;
+    Queue& queue = queue_of(i);
+    queue.push_back(i);
+    std::push_heap(queue.begin(), queue.end(), Later{tails_});
+  }
+  // The first node of a queue that is still in it, or kNone.
+  std::uint32_t first(Queue& queue) {
+    while (!queue.empty()) {
+      const std::uint32_t i = queue.front();
+      if (state_[i] == State::kReady && &queue_of(i) == &queue) return i;
+      std::pop_heap(queue.begin(), queue.end(), Later{tails_});
+      queue.pop_back();
+    }
+    return kNone;
   }
 
-  std::uint32_t choose() const {
-    std::uint32_t best = *ready_.begin();
-    const bool full = count_ >= kLiveLimit;
-    int best_growth = growth(best);
-    for (const std::uint32_t i : ready_) {
-      if (dag_.node(i).op == Op::kConstant || dag_.node(i).op == Op::kInput) return i;  // free
-      const int g = growth(i);
-      const bool better = full ? g < best_growth || (g == best_growth && tails_[i] > tails_[best])
-                               : tails_[i] > tails_[best];
-      if (better) {
-        best = i;
-        best_growth = g;
+  void take(std::uint32_t next, std::vector<std::uint32_t>& order) {
+    state_[next] = State::kDone;
+    order.push_back(next);
+    const Node& node = dag_.node(next);
+    for_each_operand(node, [&](std::uint32_t operand) {
+      const bool counts = in_register(dag_.node(operand).op);
+      if (--unread_[operand] == 0 && counts) --count_;
+      if (unread_[operand] != 1 || !counts) return;
+      // Who reads it last frees it.
+      for (const std::uint32_t user : users_[operand]) {
+        if (state_[user] == State::kDone) continue;
+        --growth_[user];
+        if (state_[user] == State::kReady) push(user);
       }
+    });
+    if (in_register(node.op)) ++count_;
+    for (const std::uint32_t user : users_[next]) {
+      if (--missing_[user] == 0) push(user);
+    }
+  }
+
+  // With few values live, what the longest path waits for; otherwise what frees most values.
+  std::uint32_t choose() {
+    const bool full = count_ >= kLiveLimit;
+    std::uint32_t best = kNone;
+    for (Queue& queue : ready_) {
+      const std::uint32_t i = first(queue);
+      if (i == kNone) continue;
+      if (best == kNone || Later{tails_}(best, i)) best = i;
+      if (full) break;
     }
     return best;
   }
@@ -98,7 +141,9 @@ class Scheduler {
   std::vector<std::vector<std::uint32_t>> users_;
   std::vector<std::uint32_t> missing_;  // operands that have not been scheduled
   std::vector<std::uint32_t> unread_;   // users that have not been scheduled
-  std::set<std::uint32_t> ready_;
+  std::vector<int> growth_;             // values more that are live after the node
+  std::vector<State> state_;
+  std::array<Queue, kGrowths> ready_;  // by growth
   std::uint32_t count_ = 0;
 };
 
