@@ -17,7 +17,8 @@ int run_generate(Arguments arguments) {
       "sinew generate");
   ModelOptions models_options;
   QueryOptions query;
-  std::string name, target = "c", style = "flat", scalar = "double", folder = ".";
+  std::string name, target = "c", style = "flat", scalar = "double", trigonometry = "own";
+  std::string folder = ".";
   program::PartialOptions partial;
   add_model_options(app, models_options);
   add_query_options(app, query);
@@ -33,6 +34,11 @@ int run_generate(Arguments arguments) {
       ->capture_default_str();
   app.add_option("--scalar", scalar, "Type of all numbers: double or float")
       ->check(CLI::IsMember({"double", "float"}))
+      ->capture_default_str();
+  app.add_option("--trigonometry", trigonometry,
+                 "own: sines and cosines are part of the code; sleef: those of the library SLEEF, "
+                 "to be linked with -lsleef")
+      ->check(CLI::IsMember({"own", "sleef"}))
       ->capture_default_str();
   app.add_option("--slow", partial.slow,
                  "Inputs that change rarely (a name, its first part, or a quantity; may be "
@@ -61,6 +67,8 @@ int run_generate(Arguments arguments) {
   options.source = describe(models_options, query);
   options.scalar = scalar == "float" ? backend::Scalar::kFloat : backend::Scalar::kDouble;
   options.language = target == "cuda" ? backend::Language::kCuda : backend::Language::kC;
+  options.trigonometry =
+      trigonometry == "sleef" ? backend::Trigonometry::kSleef : backend::Trigonometry::kOwn;
   options.partial = partial;
   options.limbs = !no_limbs;
   if (trace) {

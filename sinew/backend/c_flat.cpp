@@ -39,6 +39,7 @@ RenderedSource flat_source(const program::ScalarProgram& scalar,
   fields.text("NAME", upper_case(name));
   const bool is_float = options.scalar == Scalar::kFloat;
   fields.section("float", is_float);
+  fields.section("sleef", options.trigonometry == Trigonometry::kSleef);
   fields.text("f", is_float ? "f" : "");
   // 32 and 64 bytes.
   fields.number("lanes_256", is_float ? 8 : 4);

@@ -199,10 +199,11 @@ GeneratedCode generate_c(const program::Program& program, const COptions& option
                         {}});
   }
   if (options.style == Style::kReadable) {
-    const char* asked = options.scalar == Scalar::kFloat      ? "float"
-                        : options.language == Language::kCuda ? "CUDA"
-                        : !options.partial.empty()            ? "an update"
-                                                              : nullptr;
+    const char* asked = options.scalar == Scalar::kFloat               ? "float"
+                        : options.language == Language::kCuda          ? "CUDA"
+                        : options.trigonometry == Trigonometry::kSleef ? "SLEEF"
+                        : !options.partial.empty()                     ? "an update"
+                                                                       : nullptr;
     if (asked != nullptr) {
       throw Error(Problem{{},
                           {},
@@ -213,6 +214,14 @@ GeneratedCode generate_c(const program::Program& program, const COptions& option
                           Severity::kError,
                           {}});
     }
+  }
+  if (options.language == Language::kCuda && options.trigonometry == Trigonometry::kSleef) {
+    throw Error(Problem{{},
+                        {},
+                        "SLEEF is for processors, not for graphics processors",
+                        "leave the trigonometry of CUDA to CUDA",
+                        Severity::kError,
+                        {}});
   }
   const program::ScalarProgram scalar =
       program::scalar_program(program, options.passes, options.partial);

@@ -25,6 +25,12 @@ enum class Scalar {
   kFloat,  // flat style only: all numbers are float, constants are rounded to it
 };
 
+// Where sines and cosines come from, in flat C.
+enum class Trigonometry {
+  kOwn,    // polynomials that are part of the code; libm for far angles
+  kSleef,  // the library SLEEF, which the code includes and has to be linked with
+};
+
 enum class Language {
   kC,
   kCuda,  // flat style only: NAME.h, NAME.cu and NAME.json
@@ -36,6 +42,7 @@ struct COptions {
   std::string source = {};  // what it was made from, for the banner: "gen3.urdf, solver rnea"
   Scalar scalar = Scalar::kDouble;
   Language language = Language::kC;
+  Trigonometry trigonometry = Trigonometry::kOwn;
   program::OptimiseOptions passes = {};
   program::PartialOptions partial = {};  // flat style only: what NAME_update computes
   // Limbs that are alike are computed side by side where that pays (program/limbs), in single calls

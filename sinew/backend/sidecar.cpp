@@ -92,6 +92,7 @@ std::string sidecar(const program::ScalarProgram& scalar, const program::Interfa
                    {"style", options.style == Style::kFlat ? "flat" : "readable"},
                    {"language", options.language == Language::kCuda ? "cuda" : "c"},
                    {"scalar", options.scalar == Scalar::kFloat ? "float" : "double"},
+                   {"trigonometry", options.trigonometry == Trigonometry::kSleef ? "sleef" : "own"},
                    {"source", options.source},
                    {"algorithm", program.iri},
                    {"in-size", interface.in_size},
