@@ -4,6 +4,7 @@
 
 #include "sinew/world/impl.h"
 #include "sinew/world/refuse.h"
+#include "sinew/world/region_part.h"
 
 namespace sinew::world {
 namespace {
@@ -22,17 +23,16 @@ bool same(const Pose& a, const Pose& b) {
          a.q.z == b.q.z && a.q.w == b.q.w;
 }
 
-bool matches(const std::vector<Shape>& body, const std::vector<Shape>& region, Match match) {
+bool matches(const std::vector<Shape>& body, const std::vector<RegionPart>& region, Match match) {
   if (match == Match::kTouching) {
     return std::any_of(body.begin(), body.end(), [&](const Shape& shape) {
       return std::any_of(region.begin(), region.end(),
-                         [&](const Shape& part) { return touch(shape, part); });
+                         [&](const RegionPart& part) { return part.touches(shape); });
     });
   }
   return std::all_of(body.begin(), body.end(), [&](const Shape& shape) {
-    return std::any_of(region.begin(), region.end(), [&](const Shape& part) {
-      return protrusion(shape, part) <= kTouchingDistance;
-    });
+    return std::any_of(region.begin(), region.end(),
+                       [&](const RegionPart& part) { return part.holds(shape); });
   });
 }
 
@@ -98,16 +98,16 @@ const Space::Body& Space::alive(BodyId body) const {
   return bodies_[body.index];
 }
 
-void Space::take_out(Body& body) {
-  if (body.entry.index != kNone) index_.remove(body.entry);
-  body.entry.index = kNone;
+void Space::take_out(Body& body, Index index) {
+  index_.remove(index);
+  body.is_indexed = false;
   body.is_placed = false;
 }
 
 void Space::remove(BodyId id) {
   alive(id);
   Body& body = bodies_[id.index];
-  take_out(body);
+  take_out(body, id.index);
   by_name_.erase(body.name);
   body.alive = false;
   std::erase(unplaced_, id);
@@ -115,9 +115,9 @@ void Space::remove(BodyId id) {
 
 // The body's shapes where its frame is now; its box in the index, where it has left the old one.
 void Space::place(Body& body, Index index, Update& counts) {
-  const Place& place = places_.at(body.frame.index);
+  const Place& place = places_[body.place];
   if (!place.answer) {
-    take_out(body);
+    take_out(body, index);
     ++counts.unplaced;
     return;
   }
@@ -129,72 +129,73 @@ void Space::place(Body& body, Index index, Update& counts) {
   body.is_placed = true;
   if (body.area) return;
   const Bounds3 box = bounds(body.placed);
-  if (body.entry.index != kNone && holds(body.entry.box, box)) return;
+  boxes_[index] = box;
+  if (body.is_indexed && holds(body.indexed, box)) return;
   ++counts.reinserted;
-  if (body.entry.index != kNone) index_.remove(body.entry);
-  body.entry = {grown(box, kIndexMargin), index};
-  index_.insert(body.entry);
+  body.indexed = grown(box, kIndexMargin);
+  body.is_indexed = true;
+  index_.set(index, body.indexed);
 }
 
-Space::Update Space::update(Stamp now) {
-  const std::uint64_t structure = world_->structure_version();
+// What has gone, and what is attached elsewhere.
+void Space::follow_structure() {
   const State state = world_->state();
-  as_of_ = now;
-
-  for (Body& body : bodies_) {  // what has gone, and what is attached elsewhere
+  for (Index i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
     if (!body.alive || !body.object) continue;
     const ObjectRecord& object = state.objects[body.object.index];
     if (!object.alive) {
-      take_out(body);
+      take_out(body, i);
       by_name_.erase(body.name);
       body.alive = false;
     } else if (object.frame != body.frame.index) {
       body.frame = {object.frame};
+      body.place = kNone;
       body.is_placed = false;
     }
   }
+}
 
-  const auto read = [&](Place& place) {
-    const bool constant = place.query.measured_steps() == 0 && place.answer.status == Status::kOk;
-    if (constant && place.read_at_structure == structure) {
-      place.moved = false;
-      return;
-    }
-    const PoseAnswer before = place.answer;
-    // Asked the other way round: ways are searched from `with_respect_to`, and a body's frame has
-    // few relations where the space's may have one for every body.
-    place.answer = place.query.latest(now);
-    place.answer.pose = invert(place.answer.pose);
-    place.moved = before.status != place.answer.status || !same(before.pose, place.answer.pose);
-    place.read_at_structure = structure;
-  };
-  for (auto& [frame, place] : places_) read(place);
-  for (const Body& body : bodies_) {
-    if (!body.alive || places_.contains(body.frame.index)) continue;
-    const auto made =
-        places_.emplace(body.frame.index,
-                        Place{.query = world_->prepare_pose(
-                                  {.of = frame_, .with_respect_to = body.frame, .policy = policy_}),
-                              .answer = {}});
-    read(made.first->second);
+void Space::read(Place& place, Stamp now) const {
+  const bool constant = place.query.measured_steps() == 0 && place.answer.status == Status::kOk;
+  if (constant && place.read_at_structure == structure_) {
+    place.moved = false;
+    return;
+  }
+  const PoseAnswer before = place.answer;
+  // Asked the other way round: ways are searched from `with_respect_to`, and a body's frame has few
+  // relations where the space's may have one for every body.
+  place.answer = place.query.latest(now);
+  place.answer.pose = invert(place.answer.pose);
+  place.moved = before.status != place.answer.status || !same(before.pose, place.answer.pose);
+  place.read_at_structure = structure_;
+}
+
+Index Space::add_place(FrameId frame) {
+  const auto [found, fresh] =
+      place_of_.try_emplace(frame.index, static_cast<Index>(places_.size()));
+  if (fresh) {
+    places_.push_back(
+        {.query = world_->prepare_pose({.of = frame_, .with_respect_to = frame, .policy = policy_}),
+         .answer = {}});
+    read(places_.back(), as_of_);
+  }
+  return found->second;
+}
+
+Space::Update Space::update(Stamp now) {
+  as_of_ = now;
+  const std::uint64_t structure = world_->structure_version();
+  if (structure != structure_) follow_structure();
+  structure_ = structure;
+  for (Place& place : places_) read(place, now);
+  add_place(frame_);  // where regions are asked for most
+  for (Body& body : bodies_) {
+    if (body.alive && body.place == kNone) body.place = add_place(body.frame);
   }
 
   Update counts;
-  if (index_.size() == 0) {  // many at once: packed
-    std::vector<SpaceIndex::Entry> entries;
-    for (Index i = 0; i < bodies_.size(); ++i) {
-      Body& body = bodies_[i];
-      const Place* const place = body.alive ? &places_.at(body.frame.index) : nullptr;
-      if (!place || body.area || !place->answer) continue;
-      std::vector<Shape> shapes = body.described;
-      for (Shape& shape : shapes) shape.placement = compose(place->answer.pose, shape.placement);
-      body.entry = {grown(bounds(shapes), kIndexMargin), i};
-      body.is_placed = false;
-      entries.push_back(body.entry);
-    }
-    index_.fill(entries);
-    counts.reinserted = entries.size();
-  }
+  boxes_.resize(bodies_.size());
   unplaced_.clear();
   for (Index i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
@@ -202,17 +203,28 @@ Space::Update Space::update(Stamp now) {
     place(body, i, counts);
     if (!body.area && !body.is_placed) unplaced_.push_back({i});
   }
+  index_.settle();
   return counts;
 }
 
 RegionAnswer Space::search(const std::vector<Shape>& region, Match match) const {
   RegionAnswer answer{.status = Status::kOk, .bodies = {}, .unplaced = unplaced_};
-  const Bounds3 box = grown(bounds(region), kTouchingDistance);
-  std::vector<Index> candidates;
-  index_.search(box, candidates);
-  std::sort(candidates.begin(), candidates.end());
-  for (const Index i : candidates) {
-    if (matches(bodies_[i].placed, region, match)) answer.bodies.push_back({i});
+  candidates_.clear();
+  index_.search(grown(bounds(region), kTouchingDistance), candidates_);
+  std::sort(candidates_.begin(), candidates_.end());
+  // Most are decided by their boxes; their shapes are looked at where a box is across the edge.
+  std::vector<RegionPart> parts(region.begin(), region.end());
+  for (const Index i : candidates_) {
+    bool within = false, apart = true;
+    const TurnedBox box = turned_box(boxes_[i]);
+    for (const RegionPart& part : parts) {
+      const RegionPart::Verdict verdict = part.judge(box);
+      within = within || verdict == RegionPart::Verdict::kWithin;
+      apart = apart && verdict == RegionPart::Verdict::kApart;
+    }
+    if (within || (!apart && matches(bodies_[i].placed, parts, match))) {
+      answer.bodies.push_back({i});
+    }
   }
   return answer;
 }
@@ -257,8 +269,8 @@ std::vector<BodyId> Space::bodies() const {
 
 const PoseAnswer& Space::pose(BodyId body) const {
   static const PoseAnswer kNever;  // not updated since it was added
-  const auto found = places_.find(alive(body).frame.index);
-  return found == places_.end() ? kNever : found->second.answer;
+  const Index place = alive(body).place;
+  return place == kNone ? kNever : places_[place].answer;
 }
 
 const std::vector<Shape>& Space::shapes(BodyId body) const { return alive(body).placed; }
@@ -273,6 +285,9 @@ Status Space::status(BodyId body) const {
 }
 
 PoseAnswer Space::pose_of(FrameId frame) const {
+  if (const auto found = place_of_.find(frame.index); found != place_of_.end()) {
+    return places_[found->second].answer;  // of the last update, as everything else
+  }
   return world_->prepare_pose({.of = frame, .with_respect_to = frame_, .policy = policy_})
       .latest(as_of_);
 }

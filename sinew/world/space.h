@@ -7,9 +7,9 @@
 //   space.update(now);
 //   space.within("http://cell/storage-magazine", Match::kInside).bodies
 //
-// `update` reads the pose of every frame that can move and moves in the index what has left its
-// box; queries answer as of the last update. Poses are read one frame after the other, all for the
-// same `now`. What has no pose is in no answer and is named in each: `unplaced`.
+// `update` reads the pose of every frame that can move and changes the index where something has
+// left its box; queries answer as of the last update. Poses are read one frame after the other, all
+// for the same `now`. What has no pose is in no answer and is named in each: `unplaced`.
 //
 // One Space is used by one thread at a time; the world may be written meanwhile by any other. The
 // world stays where it is for as long as the Space lives. Structural edits are followed: objects
@@ -45,8 +45,8 @@ struct RegionAnswer {
   std::vector<BodyId> unplaced;     // bodies whose pose is not known
 };
 
-// A box in the index is this much larger than the body on every side [m]: what moves by less stays
-// where it is in the index.
+// A box in the index is this much larger than the body on every side [m]: what moves by less leaves
+// the index as it is.
 inline constexpr double kIndexMargin = 0.05;
 inline constexpr std::size_t kMaximumBodyShapes = 1000;
 
@@ -101,14 +101,19 @@ class Space {
     bool alive = false, area = false;
     ObjectId object = {};  // none: attached to the frame itself
     FrameId frame;
+    Index place = kNone;  // of the frame; kNone: not looked up since the frame changed
     std::vector<Shape> described, placed = {};
     bool is_placed = false;
-    SpaceIndex::Entry entry = {};  // index kNone: not in the index
+    bool is_indexed = false;
+    Bounds3 indexed = {};  // its box in the index
   };
   BodyId insert(Body body);
   const Body& alive(BodyId body) const;
+  Index add_place(FrameId frame);
+  void follow_structure();
+  void read(Place& place, Stamp now) const;
   void place(Body& body, Index index, Update& counts);
-  void take_out(Body& body);
+  void take_out(Body& body, Index index);
   RegionAnswer search(const std::vector<Shape>& region, Match match) const;
 
   const World* world_;
@@ -116,10 +121,14 @@ class Space {
   Policy policy_;
   Stamp as_of_;
   std::vector<Body> bodies_;
+  std::vector<Bounds3> boxes_;    // of the placed shapes, by body
   std::vector<BodyId> unplaced_;  // bodies, not areas, that have no pose; in their order
   std::unordered_map<std::string, Index> by_name_;
-  std::unordered_map<Index, Place> places_;  // by frame
+  std::vector<Place> places_;
+  std::unordered_map<Index, Index> place_of_;  // by frame
+  std::uint64_t structure_ = 0;                // the world's, at the last update
   SpaceIndex index_;
+  mutable std::vector<Index> candidates_;  // of one query; kept for the next
 };
 
 }  // namespace sinew::world
