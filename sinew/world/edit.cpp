@@ -1,5 +1,7 @@
 #include "sinew/world/edit.h"
 
+#include <thread>
+
 #include "sinew/world/impl.h"
 #include "sinew/world/reading.h"
 #include "sinew/world/refuse.h"
@@ -7,6 +9,9 @@
 
 namespace sinew::world {
 namespace {
+
+// How often an edit, which is in no hurry, looks at a pose that writers in a hurry change.
+constexpr int kEditAttempts = 1000;
 
 // The last segment of an IRI.
 std::string_view short_name(std::string_view iri) {
@@ -268,7 +273,11 @@ PoseAnswer Edit::pose(FrameId of, FrameId with_respect_to, Stamp now) const {
       next_, world_->family->names, [this](std::uint64_t owner) { return world_->as_of(owner); },
       {.of = of, .with_respect_to = with_respect_to}, false, 0);
   PoseAnswer answer;
-  read_latest(*plan, now, Policy::kInform, answer);
+  for (int attempt = 0; attempt < kEditAttempts; ++attempt) {
+    read_latest(*plan, now, Policy::kInform, answer);
+    if (answer.status != Status::kBusy) break;
+    std::this_thread::yield();
+  }
   return answer;
 }
 
@@ -365,6 +374,8 @@ RelationId Edit::detach(FrameId frame, FrameId parent, Stamp now, std::string_vi
     if (there) revived.push_back({at, there.pose});
   }
   remove(RelationId{attachment});
+  // What is linked to it now is carried by it.
+  const bool carries = pose(frame, parent, now).status != Status::kNotConnected;
   RelationId taking_over;
   for (const auto& [at, X] : revived) {
     RelationRecord& relation = next_.relations.edit(at, token_);
@@ -382,6 +393,12 @@ RelationId Edit::detach(FrameId frame, FrameId parent, Stamp now, std::string_vi
     set_value(released, now, values);
   }
   if (taking_over) return taking_over;
+  if (carries) {
+    refuse(frame_name,
+           "it carries " + names.text(next_.frames[parent.index].name) +
+               ", or is linked to it by a relation in which it is what others are seen from",
+           "detach it towards a frame that it does not carry");
+  }
   std::string iri = frame_name + "/left-at/" +
                     std::string(short_name(names.text(next_.frames[parent.index].name)));
   while (next_.find(names.find(iri)).kind != ElementKind::kNothing) iri += "-";

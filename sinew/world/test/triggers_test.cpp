@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <condition_variable>
+#include <mutex>
 #include <thread>
 
 #include "sinew/base/error.h"
@@ -227,6 +230,92 @@ TEST(EventQueue, DropsTheLeastUrgentThatCameLastAndCounts) {
   EXPECT_EQ(queue.run(), 2u);
   EXPECT_EQ(ran, (std::vector<int>{40, 10, 20}));
   EXPECT_FALSE(queue.run_one_within(milliseconds(1)));
+}
+
+// A listener that hangs in its callback: the writer writes on, looks go on, the queue stays within
+// its bound, and every event that is dropped is counted.
+TEST(Triggers, ASlowListenerHoldsUpNobody) {
+  Listening l;
+  constexpr std::size_t kRoom = 4;
+  const auto queue = std::make_shared<EventQueue>(kRoom);
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool in_callback = false, let_go = false;
+  std::uint64_t ran = 0, entries = 0;
+  for (int i = 0; i < 3; ++i) {
+    l.triggers.add({.when = OnChange{l.seen},
+                    .callback =
+                        [&](const Event& event) {
+                          std::unique_lock lock(mutex);
+                          in_callback = true;
+                          changed.notify_all();
+                          changed.wait(lock, [&] { return let_go; });
+                          ++ran;
+                          entries += event.count;
+                        }},
+                   queue);
+  }
+  std::atomic<bool> end = false;
+  std::thread listener([&] {
+    while (!end || queue->waiting() > 0) queue->run_one_within(milliseconds(5));
+  });
+  Writer writer = l.world.claim(l.seen, {"w"});
+  std::uint64_t handed_over = 0;
+  ASSERT_EQ(writer.write(at_ms(0), at_x(0)), Status::kOk);
+  handed_over += l.triggers.look(at_ms(0));
+  {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return in_callback; });
+  }
+  // The listener hangs from here on.
+  for (int i = 1; i <= 1000; ++i) {
+    ASSERT_EQ(writer.write(at_ms(i), at_x(i)), Status::kOk);
+    handed_over += l.triggers.look(at_ms(i));
+    ASSERT_LE(queue->waiting(), kRoom);
+  }
+  EXPECT_EQ(handed_over, 3u * 1001u);
+  {
+    const std::lock_guard lock(mutex);
+    let_go = true;
+  }
+  changed.notify_all();
+  end = true;
+  listener.join();
+  EXPECT_EQ(ran + queue->dropped(), handed_over);
+  EXPECT_GT(queue->dropped(), 2900u);
+  EXPECT_EQ(entries, ran);  // each event was of one entry
+}
+
+// However many unimportant ones come, what is urgent is heard, and first.
+TEST(Triggers, UnderLoadTheUrgentIsNotDropped) {
+  Listening l;
+  const auto queue = std::make_shared<EventQueue>(8);
+  std::vector<int> ran;
+  for (int i = 0; i < 50; ++i) {
+    l.triggers.add({.when = OnChange{l.seen},
+                    .priority = i % 5,
+                    .callback = [&ran, i](const Event&) { ran.push_back(i % 5); }},
+                   queue);
+  }
+  double x = 0;
+  l.triggers.add({.when = OnCondition{[&](const World&, Stamp) { return x > 0; }},
+                  .priority = 100,
+                  .callback = [&ran](const Event&) { ran.push_back(100); }},
+                 queue);
+  int urgent = 0;
+  for (int i = 0; i < 200; ++i) {
+    x = i % 7 == 0 ? 1 : -1;
+    urgent += i % 7 == 0;
+    l.write(i, x);
+    l.triggers.look(at_ms(i));
+    ran.clear();
+    queue->run();
+    ASSERT_EQ(ran.size(), 8u);
+    ASSERT_TRUE(std::is_sorted(ran.rbegin(), ran.rend()));
+    ASSERT_EQ(ran.front() == 100, i % 7 == 0);
+  }
+  EXPECT_EQ(urgent, 29);
+  EXPECT_EQ(queue->dropped(), 200u * 50u + 29u - 200u * 8u);
 }
 
 // A writer with a handle, a watch and a listener, each in its thread: callbacks run in the
