@@ -1,21 +1,17 @@
 #include "live.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <iostream>
-#include <optional>
-#include <set>
 #include <thread>
 
+#include "application.h"
+#include "live_report.h"
 #include "output.h"
 #include "pipeline.h"
 #include "robot_tree.h"
-#include "sinew/algorithm/attach.h"
 #include "sinew/backend/jit.h"
 #include "sinew/program/host_plan.h"
 #include "sinew/robot/mujoco.h"
@@ -27,7 +23,6 @@
 namespace sinew::cli {
 namespace {
 
-using runtime::Event;
 using runtime::Host;
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -39,29 +34,13 @@ constexpr std::chrono::milliseconds kLook{20};  // how often the loop is looked 
   throw Error(Problem{{}, "", std::move(what), std::move(remedy), {}, {}});
 }
 
-// "1", or "1,2,3".
-std::vector<double> numbers(const std::string& text, const std::string& option) {
-  std::vector<double> result;
-  const char* at = text.data();
-  const char* const end = text.data() + text.size();
-  while (at != end) {
-    double value = 0;
-    const auto [next, fault] = std::from_chars(at, end, value);
-    if (fault != std::errc{} || !std::isfinite(value) || (next != end && *next != ','))
-      fail("'" + text + "' is no list of numbers for " + option, "write them as 0.1,0.2");
-    result.push_back(value);
-    at = next == end ? end : next + 1;
-  }
-  return result;
-}
-
 // "NAME=NUMBERS"
 std::pair<std::string, std::vector<double>> assignment(const std::string& text,
                                                        const std::string& option) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     fail("'" + text + "' assigns nothing for " + option, "write " + option + " NAME=VALUE");
-  return {text.substr(0, equals), numbers(text.substr(equals + 1), option)};
+  return {text.substr(0, equals), parse_numbers(text.substr(equals + 1), option)};
 }
 
 std::map<std::string, double> start_of(const LiveOptions& options) {
@@ -75,7 +54,7 @@ std::map<std::string, double> start_of(const LiveOptions& options) {
 }
 
 std::shared_ptr<robot::Mujoco> simulated(Models& models, const QueryOptions& query,
-                                         const LiveOptions& options) {
+                                         const LiveOptions& options, double period_s) {
   const model::Tree tree = robot_tree(models, query);
   robot::MujocoOptions simulation;
   if (!options.scene.empty())
@@ -89,7 +68,7 @@ std::shared_ptr<robot::Mujoco> simulated(Models& models, const QueryOptions& que
       simulation.scene.start[name + "." + std::string(models.store.terms().text(joint.iri))] =
           value;
   }
-  if (options.lockstep) simulation.lockstep_period_s = 1 / options.rate;
+  if (options.lockstep) simulation.lockstep_period_s = period_s;
   return std::make_shared<robot::Mujoco>(tree, models.store.terms(), simulation);
 }
 
@@ -104,35 +83,6 @@ void add_gauges(runtime::Recorder& recorder, const std::shared_ptr<robot::Mujoco
     recorder.gauge(name, [robot, signal = signal] { return robot->signal(signal); });
 }
 
-// Without a `log` in the algorithm, whatever the host holds is recorded.
-void log_everything(program::HostPlan& plan) {
-  program::External log{"log", plan.iri, {{"label", "all"}}, {}};
-  for (std::uint32_t i = 0; i < plan.blocks.size(); ++i)
-    if (plan.blocks[i].role != program::Role::kConstant) log.blocks.push_back(i);
-  plan.externals.push_back(std::move(log));
-  plan.steps.push_back({true, static_cast<std::uint32_t>(plan.externals.size() - 1)});
-}
-
-program::HostPlan plan_of(Models& models, const ModelOptions& files, const QueryOptions& query,
-                          const LiveOptions& options) {
-  const graph::Id algorithm = algorithm_of(models, files, query);
-  if (!algorithm::has_robot(models.store.view(), algorithm)) {
-    std::string safe = options.safe;
-    if (safe.empty() && options.robot == "udp")
-      fail("no safe command is declared", "say what is commanded on a fault: --safe 0");
-    if (safe.empty()) safe = "0";  // nobody is hurt by a robot that is not there
-    algorithm::attach_robot(models.store, algorithm,
-                            {robot::interface_iri(options.robot), numbers(safe, "--safe")});
-  }
-  program::HostPlan plan =
-      program::plan_for_host(models.store.view(), algorithm,
-                             query.solver.empty() ? "program" : query.solver, &models.places);
-  const bool logs = std::any_of(plan.externals.begin(), plan.externals.end(),
-                                [](const program::External& e) { return e.operation == "log"; });
-  if (!options.record.empty() && !logs) log_everything(plan);
-  return plan;
-}
-
 // The same application on another robot: every interface that the algorithm names is this one.
 void bind_robot(Host& host, const program::HostPlan& plan,
                 const std::shared_ptr<runtime::RobotInterface>& robot, const std::string& name) {
@@ -145,74 +95,126 @@ void bind_robot(Host& host, const program::HostPlan& plan,
   }
 }
 
-std::string describe(const Event& event) {
-  const char* about = event.about.data();
-  switch (event.kind) {
-    case Event::Kind::kStale:
-      return fmt::format("{}: a measurement is {:.3f} s old", about, event.value);
-    case Event::Kind::kOutOfRange:
-      return fmt::format("{} is {}, out of its range", about, event.value);
-    case Event::Kind::kFlag:
-      return fmt::format("{} is up", about);
-    case Event::Kind::kSwapped:
-      return fmt::format("{} runs another program", about);
-    case Event::Kind::kOverrun:
-      return fmt::format("{} cycles missed", event.value);
-    case Event::Kind::kFaulted:
-      return fmt::format("{}: fault, from now on the safe command", about);
+// A program that takes another one's place while the loop runs.
+struct LateSwap {
+  std::unique_ptr<runtime::Executable> next;
+  std::string task;
+  runtime::SwapRules rules;
+  std::uint64_t cycle = 0;
+
+  bool is_pending() const { return next != nullptr; }
+  // A swap that is refused leaves the old program running.
+  bool happen(Host& host) {
+    try {
+      const runtime::SwapReport report = host.swap(task, std::move(next), rules);
+      std::cerr << "swapped " << task << ": " << describe(report) << "\n";
+      return true;
+    } catch (const Error& error) {
+      std::cerr << error.what() << "\nthe swap is refused; " << task << " goes on as before\n";
+      next = nullptr;
+      return false;
+    }
   }
-  return "";
-}
+};
 
-constexpr std::size_t kMaximumEventsTold = 20;
-
-void report(Host& host, const runtime::Recorder* recorder, bool timed) {
-  const auto events = host.take_events();
-  for (std::size_t i = 0; i < std::min(events.size(), kMaximumEventsTold); ++i)
-    std::cerr << "cycle " << events[i].tick << ": " << describe(events[i]) << "\n";
-  if (events.size() > kMaximumEventsTold)
-    std::cerr << events.size() - kMaximumEventsTold << " further events\n";
-  const runtime::HostStatistics statistics = host.statistics();
-  std::cerr << "cycles     " << statistics.cycles << ", missed " << statistics.missed << "\n";
-  if (timed) {
-    std::cerr << "real time  " << to_string(host.real_time()) << "\n"
-              << "jitter     " << to_string(*statistics.lateness) << "\n"
-              << "execution  " << to_string(*statistics.execution) << "\n";
-  }
-  if (recorder != nullptr) std::cerr << "log        " << to_string(recorder->report()) << "\n";
-}
-
-// Until it has run for as long as asked, is interrupted, or faults.
-void run_clocked(Host& host) {
+// Until it has run for as long as asked, is interrupted, or faults. False: a swap was refused.
+bool run_clocked(Host& host, LateSwap& swap) {
+  bool good = true;
   host.start();
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
-  while (interrupted == 0 && host.state() == runtime::State::kRunning && !host.has_ended())
+  while (interrupted == 0 && host.state() == runtime::State::kRunning && !host.has_ended()) {
+    if (swap.is_pending() && host.statistics().cycles >= swap.cycle) good = swap.happen(host);
     std::this_thread::sleep_for(kLook);
+  }
   host.stop();
+  return good;
 }
 
-void run_lockstep(Host& host, const LiveOptions& options) {
+bool run_lockstep(Host& host, LateSwap& swap, std::uint64_t cycles) {
+  bool good = true;
   for (const auto& [iri, robot] : host.bindings().robots) robot->start();
   if (host.bindings().recorder) host.bindings().recorder->start();
-  const auto cycles = static_cast<std::uint64_t>(std::llround(options.seconds * options.rate));
   // Faster than the clock, but not faster than the log is written.
   constexpr std::uint64_t kCyclesAtOnce = 2000;
-  for (std::uint64_t done = 0; done < cycles && host.state() != runtime::State::kFaulted;) {
-    const std::uint64_t now = std::min(kCyclesAtOnce, cycles - done);
+  for (std::uint64_t done = 0;
+       done < cycles && host.state() != runtime::State::kFaulted && !host.has_ended();) {
+    if (swap.is_pending() && done >= swap.cycle) good = swap.happen(host);
+    std::uint64_t now = std::min(kCyclesAtOnce, cycles - done);
+    if (swap.is_pending()) now = std::min(now, swap.cycle - done);
     host.step(now);
     done += now;
     if (host.bindings().recorder) host.bindings().recorder->drain();
   }
   for (const auto& [iri, robot] : host.bindings().robots) robot->stop();
   if (host.bindings().recorder) host.bindings().recorder->stop();
+  return good;
 }
 
 void check(const LiveOptions& options) {
-  if (!(options.rate > 0)) fail("a rate of " + std::to_string(options.rate), "more than 0 Hz");
+  if (options.rate && !(*options.rate > 0))
+    fail("a rate of " + std::to_string(*options.rate), "more than 0 Hz");
+  if (options.seconds < 0)
+    fail("a run of " + std::to_string(options.seconds) + " s", "more than 0 s");
   if (options.lockstep && (options.robot != "mujoco" || !(options.seconds > 0)))
     fail("nothing to keep in lockstep with",
          "--lockstep goes with --robot mujoco and --for SECONDS");
+  if (options.swap.empty() && options.swap_at)
+    fail("--swap-at without a program", "name it by --swap ALGO.jsonld");
+  if (!options.swap.empty() && !options.swap_at)
+    fail("it is not said when --swap is to happen", "add --swap-at SECONDS");
+  if (options.swap_at && !(*options.swap_at >= 0))
+    fail("--swap-at " + std::to_string(*options.swap_at), "0 s or later");
+}
+
+// The robot that all tasks speak to.
+std::shared_ptr<runtime::RobotInterface> robot_of(Models& models, const QueryOptions& query,
+                                                  const LiveOptions& options, double period_s,
+                                                  runtime::Recorder* recorder) {
+  if (options.robot == "print") {
+    robot::PrintOptions print{start_of(options),
+                              [](const std::string& line) { std::cout << line << std::endl; }};
+    return std::make_shared<robot::Print>(print);
+  }
+  if (options.robot == "mujoco") {
+    const auto robot = simulated(models, query, options, period_s);
+    if (recorder != nullptr) add_gauges(*recorder, robot);
+    return robot;
+  }
+  const model::Tree tree = robot_tree(models, query);
+  const auto robot = std::make_shared<robot::Udp>(tree, models.store.terms(),
+                                                  robot::UdpOptions{options.local, options.remote});
+  std::cerr << "measurements are awaited at port " << robot->local_port() << "\n";
+  return robot;
+}
+
+// Each set point that is named, in every task that has it.
+void set_points_of(Host& host, const Application& application, const LiveOptions& options,
+                   LateSwap& swap) {
+  for (const std::string& each : options.set) {
+    const auto [name, values] = assignment(each, "--set");
+    std::string known;
+    bool found = false;
+    for (const PlannedTask& task : application.tasks) {
+      for (const std::uint32_t at : set_points(task.plan)) {
+        const program::Variable& point = task.plan.blocks[at];
+        known += (known.empty() ? "" : ", ") + point.name;
+        if (point.name != name && point.iri != name) continue;
+        host.set(task.options.name, name, values);
+        found = true;
+      }
+    }
+    if (swap.is_pending())
+      for (const std::uint32_t point : swap.next->set_points())
+        if (!found && (swap.next->storage().about(point).name == name ||
+                       swap.next->storage().about(point).iri == name)) {
+          swap.rules.set_points.emplace_back(name, values);
+          found = true;
+        }
+    if (!found)
+      fail("there is no set-point '" + name + "'",
+           known.empty() ? "nothing is to be set" : "set " + known);
+  }
 }
 
 }  // namespace
@@ -226,12 +228,20 @@ void add_live_options(CLI::App& app, LiveOptions& options) {
       "Run in a loop, with this robot: print (measurements that never change, commands printed), "
       "mujoco (simulated), udp (a bridge to hardware)")
       ->check(CLI::IsMember({"print", "mujoco", "udp"}));
-  add("--rate", options.rate, "Cycles per second")->capture_default_str();
+  add("--rate", options.rate,
+      "Cycles per second (default: what the task's controllers state, otherwise 1000; the tasks of "
+      "a "
+      "host model have periods of their own)");
   add("--for", options.seconds, "Seconds (default: until interrupted)");
   add("--record", options.record,
       "Log file, .csv or .mcap, may be repeated; what the algorithm's logs name, or else all "
       "inputs, outputs and states");
   add("--set", options.set, "NAME=VALUE,…: an input that no robot measures; may be repeated");
+  add("--swap", options.swap,
+      "Algorithm (of 'sinew synth') that takes the running one's place at --swap-at, between two "
+      "cycles; states are carried over, or become what sa:at-swap declares");
+  add("--swap-at", options.swap_at, "Seconds of cycles after which --swap happens");
+  add("--swap-task", options.swap_task, "Task that goes over to it, where there are several");
   add("--start", options.start,
       "position.joint1=VALUE, or position=VALUE for all joints: where the simulated robot starts, "
       "what the printed one measures; may be repeated");
@@ -256,12 +266,14 @@ int run_live(const ModelOptions& files, const QueryOptions& query, const LiveOpt
              bool interpret) {
   check(options);
   const auto models = load(files);
-  program::HostPlan plan = plan_of(*models, files, query, options);
+  const Application application = application_of(*models, files, query, options);
 
   runtime::HostOptions host_options;
-  host_options.period_s = 1 / options.rate;
+  host_options.period_s = application.period_s;
   host_options.age_limit_s = options.age_limit;
-  host_options.cycles = static_cast<std::uint64_t>(std::llround(options.seconds * options.rate));
+  host_options.cycles =
+      static_cast<std::uint64_t>(std::llround(options.seconds / application.period_s));
+  if (application.event_capacity) host_options.event_capacity = *application.event_capacity;
   if (options.catch_up) host_options.late = runtime::LateCycles::kCatchUp;
   Host host(host_options);
 
@@ -270,37 +282,40 @@ int run_live(const ModelOptions& files, const QueryOptions& query, const LiveOpt
     recorder = std::make_shared<runtime::Recorder>(runtime::RecorderOptions{options.record});
     host.bindings().recorder = recorder;
   }
-  if (options.robot == "print") {
-    robot::PrintOptions print{start_of(options),
-                              [](const std::string& line) { std::cout << line << std::endl; }};
-    bind_robot(host, plan, std::make_shared<robot::Print>(print), options.robot);
-  } else if (options.robot == "mujoco") {
-    const auto robot = simulated(*models, query, options);
-    bind_robot(host, plan, robot, options.robot);
-    if (recorder) add_gauges(*recorder, robot);
-  } else {
-    const model::Tree tree = robot_tree(*models, query);
-    const auto robot = std::make_shared<robot::Udp>(
-        tree, models->store.terms(), robot::UdpOptions{options.local, options.remote});
-    std::cerr << "measurements are awaited at port " << robot->local_port() << "\n";
-    bind_robot(host, plan, robot, options.robot);
-  }
+  const auto robot = robot_of(*models, query, options, application.period_s, recorder.get());
+  for (const PlannedTask& task : application.tasks)
+    bind_robot(host, task.plan, robot, options.robot);
   if (std::string why; !interpret && !backend::jit_available(&why))
     std::cerr << "sinew run: interpreting, since " << why << "\n";
-  host.add_task({"main", 1}, runtime::Executable::prepare(std::move(plan), host.bindings(),
-                                                          {.interpret = interpret, .fast = false}));
-  for (const std::string& each : options.set) {
-    const auto [name, values] = assignment(each, "--set");
-    host.set("main", name, values);
+  const runtime::PrepareOptions how{.interpret = interpret, .fast = false};
+  for (const PlannedTask& task : application.tasks)
+    host.add_task(task.options, runtime::Executable::prepare(task.plan, host.bindings(), how));
+  for (const runtime::Connection& connection : application.connections) host.connect(connection);
+  for (const runtime::Reaction& reaction : application.reactions) host.react(reaction);
+
+  LateSwap swap;
+  if (!options.swap.empty()) {
+    ModelOptions later = files;
+    later.files = {options.swap};
+    const auto others = load(later);
+    program::HostPlan plan = plan_of(*others, later, {}, options);
+    bind_robot(host, plan, robot, options.robot);
+    swap.task = options.swap_task;
+    if (swap.task.empty() && application.tasks.size() > 1)
+      fail("--swap does not say which task goes over to it", "add --swap-task NAME");
+    if (swap.task.empty()) swap.task = application.tasks.front().options.name;
+    swap.cycle = static_cast<std::uint64_t>(std::llround(*options.swap_at / application.period_s));
+    swap.next = runtime::Executable::prepare(std::move(plan), host.bindings(), how);
   }
+  set_points_of(host, application, options, swap);
   host.configure();
-  if (options.lockstep)
-    run_lockstep(host, options);
-  else
-    run_clocked(host);
+  const bool swapped =
+      options.lockstep ? run_lockstep(host, swap, host_options.cycles) : run_clocked(host, swap);
   report(host, recorder.get(), !options.lockstep);
+  const bool never = swap.is_pending();
+  if (never) std::cerr << "the run ended before --swap-at\n";
   const bool lost = recorder && !recorder->report().fault.empty();
-  return host.state() == runtime::State::kFaulted || lost ? kFault : kOk;
+  return host.state() == runtime::State::kFaulted || lost || !swapped || never ? kFault : kOk;
 }
 
 }  // namespace sinew::cli

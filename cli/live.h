@@ -1,6 +1,7 @@
 // sinew run --robot: an algorithm in a loop, with a robot around it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,11 @@ namespace sinew::cli {
 
 struct LiveOptions {
   std::string robot;  // "print", "mujoco", "udp"; empty: not live
-  double rate = 1000;
+  std::optional<double> rate;
   double seconds = 0;  // 0: until interrupted
   std::vector<std::string> record, set, start;
+  std::string swap, swap_task;
+  std::optional<double> swap_at;
   std::string scene, safe, local = "127.0.0.1:0", remote;
   double age_limit = 0.1;
   bool lockstep = false, catch_up = false;

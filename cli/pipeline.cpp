@@ -89,6 +89,18 @@ synthesis::Query query_of_task(Models& models, const QueryOptions& options,
   return query;
 }
 
+// Of a task without a solver, which only turns numbers into others: an outer loop, a watchdog.
+synthesis::Query query_of_signals(const QueryOptions& options,
+                                  std::shared_ptr<const task::Task> task) {
+  synthesis::Query query;
+  query.name = "task";
+  for (const char* quantity : {"joint-position", "joint-velocity"})
+    query.given.push_back({quantity, std::string(synthesis::kEveryJoint)});
+  query.task = std::move(task);
+  add_options(query, options);
+  return query;
+}
+
 }  // namespace
 
 std::vector<synthesis::Query> queries_of(const ModelOptions& files, const QueryOptions& options) {
@@ -155,7 +167,9 @@ graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOpt
                        std::vector<std::string>* why) {
   if (!names_query(options)) {
     const auto task = task_of(models);
-    if (!task || !task->solver) return only_algorithm(models);
+    const bool has_algorithm = !algorithm::find_algorithms(models.store.view()).empty();
+    if (!task || (!task->solver && has_algorithm)) return only_algorithm(models);
+    if (!task->solver) return algorithm_of(models, query_of_signals(options, task), why);
     return algorithm_of(models, query_of_task(models, options, task), why);
   }
   return algorithm_of(models, query_of(queries_of(files, options), options), why);

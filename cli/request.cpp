@@ -50,6 +50,26 @@ synthesis::Given parse_given(const std::string& text) {
   return {parts[""], parts["of"], parts["seen-by"]};
 }
 
+std::vector<double> parse_numbers(const std::string& text, const std::string& option) {
+  std::vector<double> result;
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  for (;;) {
+    double value = 0;
+    const auto [next, fault] = std::from_chars(at, end, value);
+    if (fault != std::errc{} || !std::isfinite(value) || (next != end && *next != ','))
+      throw Error({{},
+                   "",
+                   "'" + text + "' is no list of numbers for " + option,
+                   "write them as 0.1,0.2",
+                   Severity::kError,
+                   {}});
+    result.push_back(value);
+    if (next == end) return result;
+    at = next + 1;
+  }
+}
+
 std::array<double, 3> parse_vector3(const std::string& text, const std::string& option) {
   std::array<double, 3> values{};
   std::size_t count = 0;

@@ -45,6 +45,9 @@ synthesis::Asked parse_asked(const std::string& text);
 // "QUANTITY [of ELEMENT] [seen-by FRAME]"; of every joint where a quantity of joints is of none.
 synthesis::Given parse_given(const std::string& text);
 
+// "1" or "1,2,3": finite numbers, at least one; throws Error naming `option` otherwise.
+std::vector<double> parse_numbers(const std::string& text, const std::string& option);
+
 // "x,y,z" as three finite numbers; throws Error naming `option` otherwise.
 std::array<double, 3> parse_vector3(const std::string& text, const std::string& option);
 

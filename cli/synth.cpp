@@ -14,7 +14,8 @@ int run_synth(Arguments arguments) {
   CLI::App app(
       "Synthesise the algorithm that answers a query: data, closures and schedule, each linked to "
       "the "
-      "model element and the step that it comes from. Where the models hold a task, its controllers "
+      "model element and the step that it comes from. Where the models hold a task, its "
+      "controllers "
       "work with the solver; without --solver and --query, its own solver is asked.",
       "sinew synth");
   ModelOptions models_options;

@@ -101,6 +101,24 @@ class Attacher {
   graph::Transaction transaction_;
 };
 
+struct Joints {
+  std::vector<Id> measured, commanded;
+};
+
+Joints joints_of(const Algorithm& model) {
+  Joints joints;
+  for (const Block& block : model.blocks) {
+    const std::string_view quantity = block.quantity->name;
+    if (block.role == Role::kInput &&
+        std::find(kMeasured.begin(), kMeasured.end(), quantity) != kMeasured.end() &&
+        std::find(kMeasuredSlots.begin(), kMeasuredSlots.end(), block.slot) != kMeasuredSlots.end())
+      joints.measured.push_back(block.id);
+    if (block.output && block.role != Role::kInput && quantity == kCommanded)
+      joints.commanded.push_back(block.id);
+  }
+  return joints;
+}
+
 [[noreturn]] void fail(const graph::Store& store, Id algorithm, std::string what,
                        std::string remedy) {
   throw Error(Problem{
@@ -115,21 +133,18 @@ bool has_robot(const graph::View& view, Id algorithm) {
   return std::any_of(model.closures.begin(), model.closures.end(), is_robot);
 }
 
+bool speaks_of_joints(const graph::View& view, Id algorithm) {
+  Report ignored;
+  const Joints joints = joints_of(read(view, algorithm, ignored));
+  return !joints.measured.empty() || !joints.commanded.empty();
+}
+
 void attach_robot(graph::Store& store, Id algorithm, const RobotAttachment& attachment) {
   const Algorithm model = read_checked(store.view(), algorithm);
   if (std::any_of(model.closures.begin(), model.closures.end(), is_robot))
     fail(store, algorithm, "the algorithm reads from or writes to a robot already",
          "leave the robot out, or take an algorithm without one");
-  std::vector<Id> measured, commanded;
-  for (const Block& block : model.blocks) {
-    const std::string_view quantity = block.quantity->name;
-    if (block.role == Role::kInput &&
-        std::find(kMeasured.begin(), kMeasured.end(), quantity) != kMeasured.end() &&
-        std::find(kMeasuredSlots.begin(), kMeasuredSlots.end(), block.slot) != kMeasuredSlots.end())
-      measured.push_back(block.id);
-    if (block.output && block.role != Role::kInput && quantity == kCommanded)
-      commanded.push_back(block.id);
-  }
+  const auto [measured, commanded] = joints_of(model);
   if (measured.empty() && commanded.empty())
     fail(store, algorithm, "the algorithm has no joint among its inputs and outputs",
          "ask for joint forces, or give joint positions");

@@ -22,6 +22,10 @@ struct RobotAttachment {
 // joint.
 void attach_robot(graph::Store& store, graph::Id algorithm, const RobotAttachment& attachment);
 
+// Whether there is a joint position or velocity among its inputs, or a joint force among its
+// outputs.
+bool speaks_of_joints(const graph::View& view, graph::Id algorithm);
+
 // Whether it has a `read` or a `write` closure.
 bool has_robot(const graph::View& view, graph::Id algorithm);
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,21 @@
 namespace sinew::algorithm {
 
 inline constexpr std::uint32_t kNoIndex = 0xFFFFFFFF;
+
+// What a state's model declares for a running program that is exchanged for this one, where the old
+// one does not keep a state with the same IRI and the same prototype (sa:at-swap).
+struct AtSwap {
+  enum class Kind : std::uint8_t {
+    kInitialise,  // the first value of the new model
+    kOperator,    // an operator of the catalogue, from one block to one
+    kScale,       // every number times a factor, which has a unit
+  };
+  Kind kind = Kind::kInitialise;
+  graph::Id from;                // of kOperator, kScale: the old program's block
+  const Operator* op = nullptr;  // kOperator
+  double factor = 1;             // kScale
+  std::string factor_unit;       // kScale, by its QUDT name
+};
 
 struct Block {
   graph::Id id;
@@ -28,7 +44,8 @@ struct Block {
   bool output = false;
   std::uint32_t index = kNoIndex;  // place among the inputs, or among the outputs
   std::uint32_t size = 0;
-  std::vector<double> value;  // of constants, and first value of states
+  std::vector<double> value;           // of constants, and first value of states
+  std::optional<AtSwap> at_swap = {};  // of states
 };
 
 // What an external closure must know beside its ports: "interface", "lower", ... A literal's text
@@ -54,6 +71,8 @@ struct Algorithm {
   std::vector<Block> blocks;
   std::vector<Closure> closures;
   std::vector<std::uint32_t> schedule;  // closures
+  // How often it must run, where it integrates over time [s].
+  std::optional<double> period_s = {};
 };
 
 // Calls visit(port, argument) for each argument of a closure.

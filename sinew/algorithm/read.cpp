@@ -48,6 +48,11 @@ class Reader {
   Algorithm read() {
     for (const Id closure : objects(result_.id, word_.sa("closure"))) read_closure(closure);
     for (const Id block : objects(result_.id, word_.sa("data"))) block_index(block);
+    if (const Id period = one(result_.id, word_.sa("period"), "sa:period")) {
+      result_.period_s = terms_.number(period);
+      if (!result_.period_s || !(*result_.period_s > 0))
+        error(result_.id, fmt::format("its period is {}", text(period)), "seconds, above zero");
+    }
     read_schedule();
     put_in_order();
     return std::move(result_);
@@ -138,7 +143,61 @@ class Reader {
         block.value.push_back(number.value_or(0));
       }
     }
+    read_at_swap(block);
     return block;
+  }
+
+  void read_at_swap(Block& block) {
+    const Id node = one(block.id, word_.sa("at-swap"), "sa:at-swap");
+    if (!node) return;
+    if (block.role != Role::kState) {
+      error(block.id, "sa:at-swap of a data block that is no state",
+            "state it of blocks with the role sa:state");
+      return;
+    }
+    AtSwap rule;
+    if (node == word_.sa("initialise")) {
+      block.at_swap = rule;
+      return;
+    }
+    const Id from = one(node, word_.sa("converted-from"), "sa:converted-from");
+    rule.from = from ? from : block.id;
+    const Id operation = one(node, word_.sa("operator"), "sa:operator");
+    const Id factor = one(node, word_.sa("factor"), "sa:factor");
+    if (!operation == !factor) {
+      error(block.id,
+            "its conversion at a swap states neither or both of sa:operator and sa:factor",
+            "sa:initialise, or a node with one of them");
+      return;
+    }
+    if (operation) {
+      rule.kind = AtSwap::Kind::kOperator;
+      rule.op = find_operator_by_iri(text(operation));
+      const bool one_to_one = rule.op && !rule.op->external && rule.op->ports.size() == 2 &&
+                              !rule.op->ports[0].many &&
+                              rule.op->ports[1].direction == Direction::kOut;
+      if (!one_to_one || rule.op->ports[1].quantity != block.quantity->name) {
+        error(
+            block.id,
+            fmt::format("{} makes no {} of one data block", text(operation), block.quantity->name),
+            "an operator of the catalogue with one input and one output");
+        return;
+      }
+    } else {
+      rule.kind = AtSwap::Kind::kScale;
+      const Id value =
+          one(factor, terms_.find_iri("http://qudt.org/schema/qudt/value"), "qudt:value");
+      const Id unit = one(factor, terms_.find_iri("http://qudt.org/schema/qudt/unit"), "qudt:unit");
+      const auto number = value ? terms_.number(value) : std::nullopt;
+      if (!number || !unit) {
+        error(block.id, "the factor of its conversion has no value or no unit",
+              "[ qudt:value 2.0 ; qudt:unit unit:PER-M ]");
+        return;
+      }
+      rule.factor = *number;
+      rule.factor_unit = short_name(text(unit));
+    }
+    block.at_swap = rule;
   }
 
   // A quantity of several units has several triples; their order is the quantity's own.

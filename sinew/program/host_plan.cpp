@@ -172,6 +172,7 @@ HostPlan plan_for_host(const graph::View& view, graph::Id algorithm, std::string
   HostPlan plan;
   plan.name = whole.name;
   plan.iri = whole.iri;
+  plan.period_s = model.period_s;
   Cutter cutter(whole, plan);
 
   std::unordered_map<std::string_view, std::uint32_t> closures, variables;
@@ -226,6 +227,14 @@ HostPlan plan_for_host(const graph::View& view, graph::Id algorithm, std::string
     }
   }
   end_stretch();
+  for (const algorithm::Block& block : model.blocks) {
+    const auto found = variables.find(terms.text(block.id));
+    if (!block.at_swap || found == variables.end()) continue;
+    const algorithm::AtSwap& rule = *block.at_swap;
+    plan.swap_rules.push_back({cutter.block_of(found->second), rule.kind,
+                               rule.from ? std::string(terms.text(rule.from)) : "", rule.op,
+                               rule.factor, rule.factor_unit});
+  }
   report.throw_if_errors();
   cutter.cut(parts);
   return plan;

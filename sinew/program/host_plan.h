@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,13 +46,25 @@ struct HostStep {
   std::uint32_t index = 0;  // into externals or segments
 };
 
+// What a state's model declares for a swap (algorithm/model.h).
+struct SwapRule {
+  std::uint32_t block = 0;  // index into HostPlan::blocks
+  algorithm::AtSwap::Kind kind = algorithm::AtSwap::Kind::kInitialise;
+  std::string from;                         // kOperator, kScale: IRI of the old program's block
+  const algorithm::Operator* op = nullptr;  // kOperator
+  double factor = 1;                        // kScale
+  std::string factor_unit;
+};
+
 struct HostPlan {
   std::string name;
-  std::string iri;               // of the algorithm
-  std::vector<Variable> blocks;  // what the host holds: inputs, states, outputs
+  std::string iri;                 // of the algorithm
+  std::optional<double> period_s;  // how often it must run, where it integrates over time
+  std::vector<Variable> blocks;    // what the host holds: inputs, states, outputs
   std::vector<Segment> segments;
   std::vector<External> externals;
   std::vector<HostStep> steps;  // in the order in which they run
+  std::vector<SwapRule> swap_rules;
 };
 
 // Reads and checks the algorithm; throws Error.

@@ -288,6 +288,10 @@ void Mujoco::write(std::span<const runtime::Transfer> commands) noexcept {
   for (const runtime::Transfer& transfer : commands)
     s.command[transfer.channel] = transfer.numbers[0];
   s.commanded.publish(s.command);
+}
+
+void Mujoco::end_cycle() noexcept {
+  Simulation& s = *simulation_;
   if (s.options.lockstep_period_s <= 0 || s.stalled.load(std::memory_order_acquire)) return;
   const auto steps = std::lround(s.options.lockstep_period_s / s.options.timestep_s);
   for (long i = 0; i < steps; ++i) s.step();

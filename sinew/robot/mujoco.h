@@ -2,7 +2,7 @@
 // thread of its own that keeps the pace of the wall clock. MuJoCo's headers stay behind this one.
 //
 // The brakes are on until the first command. Commands are cut at the maximum forces that the model
-// states. In lockstep there is no thread: each `write` moves the simulation on by one period, so a
+// states. In lockstep there is no thread: each `end_cycle` moves the simulation on by one period, so a
 // run is the same on every machine, however slow.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace sinew::robot {
 struct MujocoOptions {
   Scene scene;
   double timestep_s = 0.0005;
-  double lockstep_period_s = 0;  // > 0: in lockstep, this long a `write`
+  double lockstep_period_s = 0;  // > 0: in lockstep, this long a cycle
   bool real_time = true;         // ask for SCHED_FIFO, below the loop's priority
 };
 
@@ -36,6 +36,7 @@ class Mujoco final : public runtime::RobotInterface {
   void stop() override;
   runtime::Nanoseconds read(std::span<const runtime::Transfer> measurements) noexcept override;
   void write(std::span<const runtime::Transfer> commands) noexcept override;
+  void end_cycle() noexcept override;
 
   const Joints& joints() const;
 

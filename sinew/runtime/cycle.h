@@ -8,8 +8,8 @@
 
 namespace sinew::runtime {
 
-// Something worth telling, noted in the loop without allocating: what it is about is copied, and cut
-// where it is too long, since the program that names it may be gone when somebody reads it.
+// Something worth telling, noted in the loop without allocating: what it is about is copied, and
+// cut where it is too long, since the program that names it may be gone when somebody reads it.
 struct Event {
   enum class Kind : std::uint8_t {
     kStale,       // a measurement is older than its limit: value is its age [s]
@@ -18,6 +18,11 @@ struct Event {
     kSwapped,     // another program runs from this cycle on: value is the time it took [s]
     kOverrun,     // cycles were missed: value is how many
     kFaulted,     // the host went to the fault state
+    kRaised,      // a monitor's event
+    kEventLost,   // an event found the queue full
+    kStopped,     // an event ended the loop
+    kStarted,     // a task that was halted runs
+    kHalted,      // a task runs no more
   };
   Kind kind = Kind::kFaulted;
   std::uint64_t tick = 0;

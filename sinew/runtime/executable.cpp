@@ -13,6 +13,9 @@
 namespace sinew::runtime {
 namespace {
 
+// Values are named QUANTITY.ELEMENT; the slot of a monitor's event is `event`.
+constexpr std::string_view kEventPrefix = "event.";
+
 struct Copy {
   double* numbers;  // in the storage
   std::uint32_t offset, size;
@@ -73,7 +76,8 @@ struct Executable::Parts {
   Storage storage;
   std::vector<Pure> pure;
   std::vector<BoundExternal> externals;
-  std::vector<std::uint32_t> set_points, states;
+  std::vector<std::uint32_t> set_points, states, events;
+  std::vector<const RobotInterface*> commanded;
 };
 
 Executable::Executable(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -85,6 +89,8 @@ std::unique_ptr<Executable> Executable::prepare(program::HostPlan plan, const Bi
   std::vector<bool> read(parts->plan.blocks.size(), false);
   for (const program::External& external : parts->plan.externals) {
     parts->externals.push_back(bind_external(external, parts->storage, bindings));
+    if (const RobotInterface* robot = parts->externals.back().commands)
+      parts->commanded.push_back(robot);
     if (external.operation != "read") continue;
     for (const std::uint32_t block : external.blocks) read[block] = true;
   }
@@ -94,6 +100,9 @@ std::unique_ptr<Executable> Executable::prepare(program::HostPlan plan, const Bi
     const program::Role role = parts->plan.blocks[i].role;
     if (role == program::Role::kInput && !read[i]) parts->set_points.push_back(i);
     if (role == program::Role::kState) parts->states.push_back(i);
+    const program::Variable& block = parts->plan.blocks[i];
+    if (block.quantity == "flag" && block.output && block.name.starts_with(kEventPrefix))
+      parts->events.push_back(i);
   }
   return std::unique_ptr<Executable>(new Executable(std::move(parts)));
 }
@@ -103,6 +112,14 @@ Storage& Executable::storage() { return parts_->storage; }
 const Storage& Executable::storage() const { return parts_->storage; }
 const std::vector<std::uint32_t>& Executable::set_points() const { return parts_->set_points; }
 const std::vector<std::uint32_t>& Executable::states() const { return parts_->states; }
+const std::vector<std::uint32_t>& Executable::events() const { return parts_->events; }
+const std::vector<const RobotInterface*>& Executable::commanded() const {
+  return parts_->commanded;
+}
+const std::vector<program::SwapRule>& Executable::swap_rules() const {
+  return parts_->plan.swap_rules;
+}
+std::optional<double> Executable::period_s() const { return parts_->plan.period_s; }
 
 Verdict Executable::run(const Cycle& cycle) noexcept {
   for (const program::HostStep& step : parts_->plan.steps) {
@@ -118,6 +135,13 @@ Verdict Executable::run(const Cycle& cycle) noexcept {
 void Executable::write_safe() noexcept {
   for (const BoundExternal& external : parts_->externals)
     if (external.safe) external.safe({});
+}
+
+void Executable::reset_states() noexcept {
+  for (const std::uint32_t block : parts_->states) {
+    const std::vector<double>& first = parts_->storage.about(block).value;
+    std::copy(first.begin(), first.end(), parts_->storage.numbers(block).begin());
+  }
 }
 
 }  // namespace sinew::runtime

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,11 +48,21 @@ class Executable {
   const std::vector<std::uint32_t>& set_points() const;
   // Blocks with the role `state`.
   const std::vector<std::uint32_t>& states() const;
+  // What the models of its states declare for a swap to this program.
+  const std::vector<program::SwapRule>& swap_rules() const;
+  // Blocks that are 1 in the cycle in which a monitor's event happens ("event.NAME").
+  const std::vector<std::uint32_t>& events() const;
+  // The robots that it commands.
+  const std::vector<const RobotInterface*>& commanded() const;
+  // How often it must run, where its controllers integrate over time [s]; nothing: does not matter.
+  std::optional<double> period_s() const;
 
   // One cycle: the plan's steps in order. After a fault the remaining steps do not run.
   Verdict run(const Cycle& cycle) noexcept;
   // Hands every `write` its declared safe command instead.
   void write_safe() noexcept;
+  // Every state to its first value.
+  void reset_states() noexcept;
 
   struct Parts;
 

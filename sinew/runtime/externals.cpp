@@ -115,7 +115,8 @@ BoundExternal bind_write(const program::External& external, Storage& storage,
           [robot, safe_transfers, safe](const Cycle&) {
             robot->write(safe_transfers);
             return Verdict::kContinue;
-          }};
+          },
+          robot.get()};
 }
 
 std::shared_ptr<Recorder> recorder_of(const program::External& external, const Bindings& bindings) {
@@ -128,9 +129,10 @@ BoundExternal bind_log(const program::External& external, Storage& storage,
                        const Bindings& bindings) {
   const auto recorder = recorder_of(external, bindings);
   std::vector<std::string> columns, units;
+  const std::string* prefix = external.property("prefix");
   for (const std::uint32_t block : external.blocks) {
-    for (std::string& column : column_names(storage.about(block)))
-      columns.push_back(std::move(column));
+    for (const std::string& column : column_names(storage.about(block)))
+      columns.push_back(prefix != nullptr ? *prefix + column : column);
     units.resize(columns.size(), storage.about(block).unit);
   }
   const auto places = recorder->channel(label_of(external), columns, units);

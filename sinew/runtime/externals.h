@@ -11,6 +11,7 @@ namespace sinew::runtime {
 struct BoundExternal {
   Action action;
   Action safe;  // of `write`: the declared safe command; otherwise empty
+  const RobotInterface* commands = nullptr;  // of `write`
 };
 
 // `blocks` lie in `storage`, which must outlive the action.

@@ -1,6 +1,9 @@
 #include "sinew/runtime/host.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "sinew/base/error.h"
 
@@ -11,6 +14,11 @@ namespace {
   throw Error(Problem{{}, std::move(iri), std::move(what), std::move(remedy), {}, {}});
 }
 
+std::string seconds(double value) { return fmt::format("{} s", value); }
+
+// Two periods are the same within rounding.
+constexpr double kSamePeriod = 1e-9;
+
 }  // namespace
 
 std::string_view to_string(State state) {
@@ -18,7 +26,12 @@ std::string_view to_string(State state) {
   return names[static_cast<std::size_t>(state)];
 }
 
-Host::Host(HostOptions options) : options_(options) {
+Host::Host(HostOptions options)
+    : options_(options),
+      raised_(std::clamp<std::size_t>(options.event_capacity, 1, kMaximumEventCapacity)) {
+  if (options.event_capacity == 0 || options.event_capacity > kMaximumEventCapacity)
+    fail("", "a queue for " + std::to_string(options.event_capacity) + " events",
+         "1 to " + std::to_string(kMaximumEventCapacity));
   if (!(options_.period_s >= 1e-6 && options_.period_s <= 1e3))
     fail("", "a period of " + std::to_string(options_.period_s) + " s", "1 us to 1000 s");
 }
@@ -40,8 +53,16 @@ void Host::add_task(const TaskOptions& options, std::unique_ptr<Executable> exec
       fail("", "a second task '" + options.name + "'", "each has a name of its own");
   if (options.every == 0)
     fail("", "task '" + options.name + "' runs in every 0th cycle", "1 or more");
+  const double period = options_.period_s * options.every;
+  if (const auto wanted = executable->period_s();
+      wanted && std::abs(*wanted - period) > kSamePeriod * period)
+    fail(executable->name(),
+         "task '" + options.name + "' integrates over steps of " + seconds(*wanted) +
+             ", but would run every " + seconds(period),
+         "let it run every " + seconds(*wanted));
   Task& task = tasks_.emplace_back();
   task.options = options;
+  task.halted = options.halted;
   task.latest = executable.get();
   task.given.resize(executable->storage().size(), false);
   task.executable = std::move(executable);
@@ -126,6 +147,11 @@ void Host::configure() {
   if (tasks_.empty()) fail("", "a host without tasks", "add one");
   wires_ = resolve_wires();
   require_sources();
+  rows_ = resolve_reactions();
+  for (Task& task : tasks_) task.watchers = watchers_of(*task.executable);
+  for (const auto& [iri, robot] : bindings_.robots)
+    if (std::find(robots_.begin(), robots_.end(), robot.get()) == robots_.end())
+      robots_.push_back(robot.get());
   state_.store(State::kConfigured, std::memory_order_release);
 }
 
@@ -138,6 +164,7 @@ void Host::start() {
   stopping_.store(false, std::memory_order_release);
   real_time_known_.store(false, std::memory_order_release);
   ended_.store(false, std::memory_order_release);
+  stop_asked_ = false;
   state_.store(State::kRunning, std::memory_order_release);
   thread_ = std::thread([this] { loop(); });
   real_time_known_.wait(false, std::memory_order_acquire);
@@ -161,19 +188,23 @@ void Host::wait() {
 void Host::reset() {
   require_state(State::kFaulted, "it can be reset");
   if (thread_.joinable()) fail("", "it still commands what is safe", "stop it first");
-  for (Task& task : tasks_)
-    for (const std::uint32_t block : task.executable->states()) {
-      const auto& first = task.executable->storage().about(block).value;
-      std::copy(first.begin(), first.end(), task.executable->storage().numbers(block).begin());
-    }
+  for (Task& task : tasks_) {
+    task.executable->reset_states();
+    task.halted = task.options.halted;
+  }
   faulted_ = false;
+  stop_asked_ = false;
+  ended_.store(false, std::memory_order_release);
   state_.store(State::kConfigured, std::memory_order_release);
 }
 
 void Host::step(std::uint64_t cycles) {
   if (thread_.joinable() || state() == State::kIdle)
     fail("", "it can be stepped only while it is configured and does not run", "");
-  for (std::uint64_t i = 0; i < cycles; ++i) cycle(next_tick_++);
+  for (std::uint64_t i = 0; i < cycles && !stop_asked_; ++i) {
+    cycle(next_tick_++);
+    if (stop_asked_) ended_.store(true, std::memory_order_release);
+  }
   if (faulted_.load()) state_.store(State::kFaulted, std::memory_order_release);
 }
 
@@ -232,6 +263,7 @@ SwapReport Host::swap(const std::string& name, std::unique_ptr<Executable> next,
   auto change = std::make_unique<Change>();
   try {
     change->wires = resolve_wires();
+    change->watchers = watchers_of(*next);
     require_sources();
   } catch (...) {
     undo();
@@ -274,8 +306,13 @@ std::vector<Event> Host::take_events() {
 }
 
 HostStatistics Host::statistics() const {
-  return {cycles_.load(std::memory_order_relaxed), missed_.load(std::memory_order_relaxed),
-          events_lost_.load(std::memory_order_relaxed), &lateness_, &execution_};
+  return {cycles_.load(std::memory_order_relaxed),
+          missed_.load(std::memory_order_relaxed),
+          events_lost_.load(std::memory_order_relaxed),
+          raised_count_.load(std::memory_order_relaxed),
+          raised_lost_.load(std::memory_order_relaxed),
+          &lateness_,
+          &execution_};
 }
 
 void Host::reclaim() {

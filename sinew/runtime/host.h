@@ -24,6 +24,7 @@
 
 #include "sinew/runtime/cycle.h"
 #include "sinew/runtime/executable.h"
+#include "sinew/runtime/reactions.h"
 #include "sinew/runtime/real_time.h"
 #include "sinew/runtime/ring.h"
 #include "sinew/runtime/statistics.h"
@@ -47,11 +48,13 @@ struct HostOptions {
   bool real_time = true;     // ask for SCHED_FIFO and locked memory
   int priority = kDefaultPriority;
   LateCycles late = LateCycles::kSkip;
+  std::size_t event_capacity = 64;  // of the queue of events; rounded up to a power of two
 };
 
 struct TaskOptions {
   std::string name;
   std::uint32_t every = 1;  // runs in every n-th cycle
+  bool halted = false;      // until an event starts it (Reaction)
 };
 
 // From a block of one task to an input of another, by IRI or name.
@@ -63,10 +66,12 @@ struct Connection {
 using Guard = std::function<std::optional<std::string>()>;
 
 struct HostStatistics {
-  std::uint64_t cycles = 0;  // that ran
-  std::uint64_t missed = 0;  // cycles that were left out because an earlier one was late
-  std::uint64_t events_lost = 0;
-  const Histogram* lateness = nullptr;   // from when a cycle should have begun to when it did
+  std::uint64_t cycles = 0;             // that ran
+  std::uint64_t missed = 0;             // cycles that were left out because an earlier one was late
+  std::uint64_t events_lost = 0;        // not told: take_events was called too seldom
+  std::uint64_t raised = 0;             // events that were put into the queue
+  std::uint64_t raised_lost = 0;        // that found it full
+  const Histogram* lateness = nullptr;  // from when a cycle should have begun to when it did
   const Histogram* execution = nullptr;  // from its begin to its end
 };
 
@@ -83,10 +88,11 @@ class Host final : private EventSink {
   // --- before configure ---
   void add_task(const TaskOptions& options, std::unique_ptr<Executable> executable);
   void connect(Connection connection);
+  void react(Reaction reaction);
   void add_guard(Guard guard) { guards_.push_back(std::move(guard)); }
 
   // --- life-cycle; each throws Error when it may not happen now ---
-  void configure();  // resolves connections; every input must have a source
+  void configure();  // resolves connections and reactions; every input must have a source
   void start();      // guards, robots, recorder, loop
   void stop();       // ends the loop after its cycle; robots get their safe command
   void reset();      // from faulted to configured; states get their first values
@@ -97,13 +103,16 @@ class Host final : private EventSink {
   State state() const { return state_.load(std::memory_order_acquire); }
 
   // The same cycle, by the calling thread, without a clock: for tests, and simulations that are
-  // stepped. Only while configured or faulted.
+  // stepped. Only while configured or faulted; does nothing once an event has stopped it.
   void step(std::uint64_t cycles = 1);
 
   // --- while running, or before ---
   // Gives a set-point its value, from the next cycle on. Throws Error: no such set-point, another
   // size, or too many at once.
   void set(const std::string& task, const std::string& block, std::span<const double> values);
+  // An event of which something is declared (Reaction), from the next cycle on. Throws Error: no
+  // such event, or too many at once.
+  void raise(const std::string& event);
   // The task goes over to another program at the next boundary of a cycle. Returns at once; throws
   // Error, and leaves the old one running, when the new one cannot follow it.
   SwapReport swap(const std::string& task, std::unique_ptr<Executable> next,
@@ -111,6 +120,8 @@ class Host final : private EventSink {
   // Of the last swap that has happened; nothing: none has yet.
   std::optional<SwapRecord> last_swap();
 
+  // Whether the task is halted, while the host does not run.
+  bool is_halted(const std::string& task) const;
   // A block's numbers, while the host does not run.
   std::vector<double> read(const std::string& task, const std::string& block) const;
 
@@ -120,6 +131,7 @@ class Host final : private EventSink {
 
  private:
   static constexpr std::size_t kCommands = 64, kEvents = 1024;
+  static constexpr std::size_t kMaximumEventCapacity = 65536;
   static constexpr std::size_t kMaximumSetPoint = 64;  // numbers
 
   struct Task {
@@ -127,6 +139,8 @@ class Host final : private EventSink {
     std::unique_ptr<Executable> executable;  // the loop's
     const Executable* latest = nullptr;      // that runs once all commands have been carried out
     std::vector<bool> given;                 // by block of `latest`: a set-point with a value
+    std::vector<Watcher> watchers;           // the loop's
+    bool halted = false;                     // the loop's
   };
   struct Wire {  // a resolved connection
     std::uint32_t to_task = 0, size = 0;
@@ -138,6 +152,7 @@ class Host final : private EventSink {
     std::unique_ptr<Executable> executable;
     std::vector<StateCopy> copies;
     std::vector<Wire> wires;
+    std::vector<Watcher> watchers;
     Nanoseconds requested = 0;
   };
   struct Command {
@@ -149,6 +164,9 @@ class Host final : private EventSink {
 
   std::size_t task_index(const std::string& name) const;
   std::vector<Wire> resolve_wires() const;
+  std::vector<EventRow> resolve_reactions() const;
+  std::vector<Watcher> watchers_of(const Executable& executable) const;
+  std::uint32_t find_event(const std::string& iri_or_name) const;  // kNoRow: nothing is declared
   void require_sources() const;
   void require_state(State wanted, const char* what) const;
   void reclaim();
@@ -158,7 +176,12 @@ class Host final : private EventSink {
   void cycle(std::uint64_t tick) noexcept;
   void carry_out_commands(std::uint64_t tick) noexcept;
   void apply(Change& change, std::uint64_t tick) noexcept;
-  void fault(const Cycle& cycle, const Task& task) noexcept;
+  void fault(const Cycle& cycle, const char* about) noexcept;
+  void raise_events(const Task& task, const Cycle& cycle) noexcept;
+  void react_to_events(const Cycle& cycle) noexcept;
+  void carry_out(const EventRow& row, const Cycle& cycle) noexcept;
+  void tell(Event::Kind kind, const Cycle& cycle, const char* about) noexcept;
+  bool is_commanded_by_another(const Task& task) const noexcept;
   void note(const Event& event) noexcept override;
 
   HostOptions options_;
@@ -167,6 +190,9 @@ class Host final : private EventSink {
   std::vector<Connection> connections_;
   std::vector<Wire> wires_;  // the loop's
   std::vector<Guard> guards_;
+  std::vector<Reaction> reactions_;
+  std::vector<EventRow> rows_;           // do not change once configured
+  std::vector<RobotInterface*> robots_;  // that are bound, each once
   std::atomic<State> state_ = State::kIdle;
   std::atomic<bool> stopping_ = false, faulted_ = false, ended_ = false;
   std::uint64_t next_tick_ = 0;
@@ -177,6 +203,11 @@ class Host final : private EventSink {
   Ring<Command> commands_{kCommands};
   Ring<Change*> retired_{kCommands};
   Ring<Event> events_{kEvents};
+  Ring<std::uint32_t> raised_;                       // rows: from the loop, to its next boundary
+  Ring<std::uint32_t> raised_outside_{kCommands};    // rows: from the supervising thread
+  bool stop_raised_ = false, fault_raised_ = false;  // the loop's: events that did not fit
+  bool stop_asked_ = false;                          // the loop's
+  std::atomic<std::uint64_t> raised_count_ = 0, raised_lost_ = 0;
   std::atomic<std::uint64_t> cycles_ = 0, missed_ = 0, events_lost_ = 0;
   Histogram lateness_, execution_;
   Ring<SwapRecord> swapped_{kCommands};

@@ -21,7 +21,7 @@ void Host::loop() {
   const Nanoseconds period = from_seconds(options_.period_s);
   Nanoseconds next = now() + period;
   std::uint64_t ran = 0;
-  while (!stopping_.load(std::memory_order_acquire) &&
+  while (!stopping_.load(std::memory_order_acquire) && !stop_asked_ &&
          (options_.cycles == 0 || ran < options_.cycles)) {
     sleep_until(next);
     const Nanoseconds began = now();
@@ -47,27 +47,40 @@ void Host::loop() {
 void Host::cycle(std::uint64_t tick) noexcept {
   carry_out_commands(tick);
   const Cycle cycle{tick, now(), from_seconds(options_.age_limit_s), this};
+  react_to_events(cycle);
   for (std::uint32_t i = 0; i < tasks_.size(); ++i) {
     Task& task = tasks_[i];
-    if (faulted_.load(std::memory_order_relaxed)) {
+    if (faulted_.load(std::memory_order_relaxed) || stop_asked_) {
       task.executable->write_safe();
       continue;
     }
     if (tick % task.options.every != 0) continue;
+    if (task.halted) {
+      if (!is_commanded_by_another(task)) task.executable->write_safe();
+      continue;
+    }
     for (const Wire& wire : wires_)
       if (wire.to_task == i) std::copy_n(wire.from, wire.size, wire.to);
-    if (task.executable->run(cycle) == Verdict::kFault) fault(cycle, task);
+    if (task.executable->run(cycle) == Verdict::kFault)
+      fault(cycle, task.options.name.c_str());
+    else
+      raise_events(task, cycle);
   }
+  for (RobotInterface* robot : robots_) robot->end_cycle();
   if (bindings_.recorder && !faulted_.load(std::memory_order_relaxed))
     bindings_.recorder->commit(tick, cycle.start);
   cycles_.fetch_add(1, std::memory_order_relaxed);
 }
 
-void Host::fault(const Cycle& cycle, const Task& task) noexcept {
-  faulted_.store(true, std::memory_order_relaxed);
-  Event event{Event::Kind::kFaulted, cycle.tick, cycle.start, 0, {}};
-  event.set_about(task.options.name.c_str());
+void Host::tell(Event::Kind kind, const Cycle& cycle, const char* about) noexcept {
+  Event event{kind, cycle.tick, cycle.start, 0, {}};
+  event.set_about(about);
   note(event);
+}
+
+void Host::fault(const Cycle& cycle, const char* about) noexcept {
+  faulted_.store(true, std::memory_order_relaxed);
+  tell(Event::Kind::kFaulted, cycle, about);
   // Also those tasks that have run in this cycle.
   for (const Task& each : tasks_) each.executable->write_safe();
   State running = State::kRunning;
@@ -96,6 +109,7 @@ void Host::apply(Change& change, std::uint64_t tick) noexcept {
   Task& task = tasks_[change.task];
   std::swap(task.executable, change.executable);
   std::swap(wires_, change.wires);
+  std::swap(task.watchers, change.watchers);
   const Nanoseconds ended = now();
   swapped_.push({tick, change.requested, ended, ended - began, thread_time() - cpu});
   Event event{Event::Kind::kSwapped, tick, ended, to_seconds(ended - began), {}};

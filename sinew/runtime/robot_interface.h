@@ -40,6 +40,8 @@ class RobotInterface {
   virtual Nanoseconds read(std::span<const Transfer> measurements) noexcept = 0;
   // Hands over one set of commands.
   virtual void write(std::span<const Transfer> commands) noexcept = 0;
+  // Every task of this cycle has run: what is simulated in lockstep moves on by one period.
+  virtual void end_cycle() noexcept {}
 };
 
 }  // namespace sinew::runtime

@@ -1,8 +1,15 @@
 // What a program hands over to the one that takes its place.
 //
-// A state whose IRI and prototype are unchanged is carried over. One that a rule names is converted
-// from the old block that the rule says. Every other state gets the first value that its model
-// declares. Set-points with the same IRI and prototype keep their value.
+// In this order, for each state of the new program:
+//
+// - one that a rule of the caller names is converted as it says, or gets its first value;
+// - one whose IRI and prototype are unchanged is carried over;
+// - for the others its model declares what happens (sa:at-swap: initialised, or converted by an
+//   operator or a factor);
+// - where nothing is declared, a state that the old program does not have gets its first value, and
+//   one that it has with another prototype refuses the swap.
+//
+// Set-points with the same IRI and prototype keep their value.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +33,7 @@ struct StateConversion {
 
 struct SwapRules {
   std::vector<StateConversion> conversions;
+  std::vector<std::string> initialise;  // states, by IRI or name
   // Values of set-points that the old program does not have, by IRI or name.
   std::vector<std::pair<std::string, std::vector<double>>> set_points;
 };

@@ -47,6 +47,7 @@ struct Control {
   std::shared_ptr<const task::Task> task;
   std::unordered_map<Id, SpatialPlace> places;   // by coordinates
   std::unordered_map<Id, std::uint32_t> cycles;  // of each handler, in the fastest one's
+  std::optional<double> period_s;                // of the fastest one
   Drives drives = Drives::kNothing;
   bool accelerations = false;  // joint accelerations are the task's, zero where no driver has one
   bool forces = false;         // joint forces (of forward dynamics) are the task's

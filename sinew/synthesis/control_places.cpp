@@ -255,6 +255,7 @@ class Placer {
     for (const task::Handler& handler : task.handlers)
       if (handler.period_s)
         fastest = std::min(fastest.value_or(*handler.period_s), *handler.period_s);
+    control_.period_s = fastest;
     for (const task::Handler& handler : task.handlers) {
       const double ratio = handler.period_s ? *handler.period_s / *fastest : 1;
       const double whole = std::round(ratio);

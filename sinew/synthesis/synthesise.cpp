@@ -137,8 +137,11 @@ Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robo
                  const MotionDrivers& drivers, std::span<const AskedQuantity> more,
                  Report& report) {
   Resolved resolved;
-  if (query.asked.empty())
-    report.error({}, query.name, "the query asks for nothing", "state what is asked");
+  const bool computes =
+      query.task && !(query.task->controllers.empty() && query.task->monitors.empty());
+  if (query.asked.empty() && !computes)
+    report.error({}, query.name, "the query asks for nothing",
+                 "state what is asked, or a task whose numbers are computed");
   for (const Asked& asked : query.asked) {
     const AskedQuantity* row = find_asked(asked.quantity);
     for (const AskedQuantity& one : more)
@@ -159,9 +162,10 @@ Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robo
     resolved.wishes.push_back({std::string(between ? row->between : row->needs), asked.quantity});
     try {
       if (!between) check_directions(asked, *row);
-      for (const Id element : row->name == "joint-force-share"
-                                  ? shares(store, view, robot, query, wrenches)
-                                  : elements(store, view, robot, query, drivers, asked, row->element)) {
+      for (const Id element :
+           row->name == "joint-force-share"
+               ? shares(store, view, robot, query, wrenches)
+               : elements(store, view, robot, query, drivers, asked, row->element)) {
         if (!between) {
           resolved.wanted.push_back({row, element, {element}});
           continue;
@@ -447,6 +451,9 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   write_driver_list(context, transaction);
   transaction.clear(context.slots_graph());
   builder.finish();
+  if (control && control->period_s)
+    transaction.add({result.algorithm, terms.iri(std::string(kAlgorithmNamespace) + "period"),
+                     terms.real(*control->period_s), result.algorithm});
   floating.reset();
   transaction.commit();
   result.why = plan.why;

@@ -104,7 +104,10 @@ TEST(Mujoco, RestsOnATable) {
   const double none = 0;
   std::vector<runtime::Transfer> commands;
   for (runtime::Channel i = 0; i < 7; ++i) commands.push_back({i, const_cast<double*>(&none), 1});
-  for (int i = 0; i < 5000; ++i) robot->write(commands);
+  for (int i = 0; i < 5000; ++i) {
+    robot->write(commands);
+    robot->end_cycle();
+  }
   EXPECT_GT(robot->signal(Mujoco::Signal::kContact), 1) << "it lies on the table";
 }
 
@@ -114,6 +117,7 @@ TEST(Mujoco, CutsCommandsAtTheMaximumForces) {
   double much = 1000;
   const runtime::Transfer command{0, &much, 1};
   robot->write({&command, 1});
+  robot->end_cycle();
   EXPECT_GT(robot->signal(Mujoco::Signal::kCut), 0);
 }
 

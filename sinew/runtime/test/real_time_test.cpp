@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "fixture.h"
+#include "watching.h"
 
 // A sanitizer has a malloc of its own: gcc and clang say so in different words.
 #if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
@@ -52,7 +52,7 @@ void free(void* memory) {
 namespace sinew::runtime::test {
 namespace {
 
-class RealTime : public RuntimeTest {
+class RealTime : public WatchingTest {
  protected:
   // Allocations and releases in one step of the host.
   static std::uint64_t in_cycles(Host& host, std::uint64_t cycles) {
@@ -101,6 +101,38 @@ TEST_F(RealTime, ACycleWithLogsChecksProbesSetPointsASwapAndAFaultAllocatesNothi
   EXPECT_EQ(h->state(), State::kFaulted);
   bindings_.recorder->stop();
   std::remove(log.c_str());
+}
+
+TEST_F(RealTime, ACycleWithEventsThatSwitchTasksAllocatesNothing) {
+#ifdef SINEW_SANITIZED
+  GTEST_SKIP() << "the sanitizer has its own malloc";
+#endif
+  const auto first = watching("contact", -7.0, 3), second = watching("released");
+  HostOptions options;
+  options.real_time = false;
+  options.event_capacity = 2;  // one of three is lost
+  Host h(options);
+  h.bindings() = bindings_;
+  h.add_task({"first", 1}, executable(*first));
+  h.add_task({"second", 1, true}, executable(*second));
+  for (const auto& [task, event] : {std::pair{"first", "contact"}, {"second", "released"}}) {
+    h.set(task, "given.joint1", std::array{1.0});
+    h.set(task, std::string("watched.") + event, std::array{9.0});
+  }
+  h.react({"event.contact", ReactionKind::kHaltTask, "first"});
+  h.react({"event.contact2", ReactionKind::kStartTask, "second"});
+  h.react({"event.contact3", ReactionKind::kHaltTask, "first"});
+  h.react({"event.released", ReactionKind::kFault});
+  h.configure();
+  h.step();
+  h.set("first", "watched.contact", std::array{0.0});
+  EXPECT_EQ(in_cycles(h, 3), 0u);
+  EXPECT_TRUE(h.is_halted("first"));
+  EXPECT_FALSE(h.is_halted("second"));
+  EXPECT_EQ(h.statistics().raised_lost, 1u);
+  h.set("second", "watched.released", std::array{0.0});
+  EXPECT_EQ(in_cycles(h, 3), 0u) << "with a fault";
+  EXPECT_EQ(h.state(), State::kFaulted);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@ namespace sinew::runtime::test {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 class SwapTest : public RuntimeTest {};
@@ -24,7 +25,98 @@ TEST_F(SwapTest, CarriesAStateWithTheSameIriAndPrototypeOver) {
   EXPECT_EQ(h->last_swap()->tick, 1u);
 }
 
-TEST_F(SwapTest, InitialisesAStateWithAnotherPrototype) {
+TEST_F(SwapTest, RefusesAStateWithAnotherPrototypeWhenNothingIsDeclared) {
+  const auto before = model(2.0), after = model(100.0, true);
+  const auto h = host(*before);
+  h->step();
+  SwapRules rules;
+  rules.set_points = {{"given.joint1", {1.0}}};
+  try {
+    h->swap("main", executable(*after), rules);
+    FAIL() << "a state vanished in silence";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("kept.joint1"));
+    EXPECT_THAT(error.what(), HasSubstr("in N-M"));
+    EXPECT_THAT(error.what(), HasSubstr("sa:at-swap"));
+  }
+  h->step();
+  EXPECT_EQ(robot_->command_, 5.0) << "the old program goes on";
+}
+
+// The same, with `says` about the state in the new program's model.
+class DeclaredSwap : public SwapTest {
+ protected:
+  SwapReport swap(const std::string& says, double first = 2.0) {
+    before_ = model(first);
+    after_ = model(100.0, true);
+    algorithm::weave(after_->store, after_->algorithm,
+                     "PREFIX sa: <https://w3id.org/sinew/algorithm#>\n"
+                     "PREFIX so: <https://w3id.org/sinew/operators#>\n"
+                     "PREFIX qudt: <http://qudt.org/schema/qudt/>\n"
+                     "PREFIX unit: <http://qudt.org/vocab/unit/>\n"
+                     "INSERT { ?kept sa:at-swap " +
+                         says + " } WHERE { ?kept sa:name \"kept.joint1\" }",
+                     "declare");
+    host_ = host(*before_);
+    host_->step();  // kept: -first
+    SwapRules rules;
+    rules.set_points = {{"given.joint1", {1.0}}};
+    const SwapReport report = host_->swap("main", executable(*after_), rules);
+    host_->step();
+    return report;
+  }
+  std::string refused(const std::string& says) {
+    try {
+      swap(says);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::unique_ptr<Model> before_, after_;
+  std::unique_ptr<Host> host_;
+};
+
+TEST_F(DeclaredSwap, InitialisesAState) {
+  const SwapReport report = swap("sa:initialise");
+  EXPECT_THAT(report.initialised, ElementsAre("kept.joint1"));
+  EXPECT_EQ(robot_->command_, -99.0);  // 1 - 100
+}
+
+TEST_F(DeclaredSwap, ConvertsAStateByAFactor) {
+  // N m to N at an arm of 50 cm: 2 per metre.
+  const SwapReport report = swap("[ sa:factor [ qudt:value 2.0 ; qudt:unit unit:PER-M ] ]");
+  EXPECT_THAT(report.converted, ElementsAre("kept.joint1"));
+  EXPECT_EQ(robot_->command_, 5.0);  // 1 + 2 * 2
+}
+
+TEST_F(DeclaredSwap, RefusesAFactorWhoseUnitDoesNotFit) {
+  EXPECT_THAT(refused("[ sa:factor [ qudt:value 2.0 ; qudt:unit unit:M ] ]"),
+              HasSubstr("times a factor in M"));
+  EXPECT_THAT(refused("[ sa:factor [ qudt:value 2.0 ; qudt:unit unit:Elbow ] ]"),
+              HasSubstr("no known unit"));
+}
+
+TEST_F(DeclaredSwap, RefusesAnOperatorThatDoesNotFitTheOldState) {
+  // It makes a joint force, but of a signal.
+  EXPECT_THAT(refused("[ sa:operator so:joint-force-of-signal ]"),
+              HasSubstr("is a joint-force; it takes a signal"));
+  EXPECT_THAT(refused("[ sa:operator so:keep-flag ]"), HasSubstr("makes no joint-force"));
+  EXPECT_THAT(refused("[ sa:converted-from <https://example.org/nowhere> ; "
+                      "sa:factor [ qudt:value 2.0 ; qudt:unit unit:PER-M ] ]"),
+              HasSubstr("has no data block 'https://example.org/nowhere'"));
+}
+
+TEST_F(DeclaredSwap, RefusesADeclarationThatSaysNothingOrTooMuch) {
+  EXPECT_THAT(refused("[ sa:converted-from sa:initialise ]"), HasSubstr("neither or both"));
+  EXPECT_THAT(refused("[ sa:operator so:keep-flag ; sa:factor [ qudt:value 1 ] ]"),
+              HasSubstr("neither or both"));
+  EXPECT_THAT(refused("[ sa:factor 2.0 ]"), HasSubstr("no value or no unit"));
+  EXPECT_THAT(refused("sa:initialise ; sa:at-swap [ sa:operator so:keep-flag ]"),
+              HasSubstr("two values"));
+}
+
+TEST_F(SwapTest, InitialisesAStateWhenTheCallerSaysSo) {
   const auto before = model(2.0), after = model(100.0, true);  // newtons, not newton metres
   const auto h = host(*before);
   h->step();
@@ -34,6 +126,7 @@ TEST_F(SwapTest, InitialisesAStateWithAnotherPrototype) {
   EXPECT_EQ(robot_->command_, 5.0) << "the old program goes on";
   SwapRules rules;
   rules.set_points = {{"given.joint1", {1.0}}};
+  rules.initialise = {"kept.joint1"};
   const SwapReport report = h->swap("main", executable(*after), rules);
   EXPECT_THAT(report.initialised, ElementsAre("kept.joint1"));
   EXPECT_THAT(report.set, ElementsAre("given.joint1"));

@@ -1,4 +1,4 @@
-// Any JSON-LD document as a task: it is read, or refused with reasons; never more.
+// Any JSON-LD document as a task, and as a host of tasks: it is read, or refused with reasons; never more.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -8,6 +8,7 @@
 #include "sinew/graph/places.h"
 #include "sinew/graph/store.h"
 #include "sinew/model/load.h"
+#include "sinew/task/host_model.h"
 #include "sinew/task/read_task.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -18,7 +19,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                     std::string(reinterpret_cast<const char*>(data), size)};
   try {
     sinew::model::load(std::span(&source, 1), {}, store, places, report);
-    if (!report.has_errors()) sinew::task::read_task(store, places, report);
+    if (!report.has_errors()) {
+      sinew::task::read_task(store, places, report);
+      sinew::task::read_host(store, places, report);
+    }
   } catch (const sinew::Error&) {
   }
   return 0;
