@@ -56,7 +56,7 @@ struct CellWithRights {
     load_scene(world, store, places, loading);
     loading.throw_if_errors();
     declared = read_rights(store, places, report);
-    check_configuration(world, declared.rights, declared.writers, report);
+    check_configuration(world, declared, report);
   }
   MeasurementId measurement(const std::string& name) const {
     return world.find_measurement(kCell + name);
@@ -72,6 +72,8 @@ TEST(Rights, TheCellsConfigurationHasNoConflict) {
   const CellWithRights cell;
   EXPECT_TRUE(cell.report.problems().empty()) << to_string(cell.report.problems().front());
   EXPECT_EQ(cell.declared.writers.size(), 2u);
+  EXPECT_EQ(cell.declared.readers.size(), 2u);
+  EXPECT_EQ(cell.declared.components, (std::set<std::string>{kCamera, kController, kTask}));
   EXPECT_EQ(cell.declared.rights.size(), 1u);
 }
 
