@@ -95,6 +95,8 @@ void FromRdf::add(const graph::Quad& quad) {
   }
   if (is_node && quad.predicate == rdf_type_ && !options_.use_rdf_type) {
     add_value(subject, keyword_value(keyword::kType), identifier(quad.object), arena_);
+    // A type is written by its label, so the node cannot lose it.
+    if (terms_.is_blank(quad.object)) usages_.insert_or_assign(quad.object, OnlyUsage());
     return;
   }
   const json::Value value = object(quad.object);
@@ -121,8 +123,10 @@ bool FromRdf::is_list_cell(const json::Value& node) const {
   return node.members().size() == expected;
 }
 
-// A usage in another graph does not count: what is moved there would change its graph.
+// A usage in another graph does not count: what is moved there would change its graph. What names a
+// graph keeps its label.
 const FromRdf::Usage* FromRdf::only_usage(const Graph& graph, Id node) const {
+  if (graph_index_.contains(node)) return nullptr;
   const auto found = usages_.find(node);
   if (found == usages_.end() || !found->second || found->second->graph != graph.name)
     return nullptr;
@@ -190,7 +194,7 @@ void FromRdf::embed(Graph& graph) {
   for (const Id id : graph.order) {
     if (!graph.nodes.contains(id)) continue;
     const Usage* only = terms_.is_blank(id) ? only_usage(graph, id) : nullptr;
-    if (only == nullptr || graph_index_.contains(id)) {
+    if (only == nullptr) {
       roots.push_back(id);
     } else {
       inner[home(graph, only->subject)].push_back(id);

@@ -94,6 +94,17 @@ TEST_F(Writing, DoesNotAbbreviateWhatWouldReadBackAsAnotherIri) {
   EXPECT_EQ(read(text), quads_);
 }
 
+// A type is written by its label, which a node written inside another one would not have.
+TEST_F(Writing, KeepsTheLabelOfWhatIsAlsoAType) {
+  const Id kind = terms_.fresh_blank();
+  const Id type = terms_.iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#type");
+  add("arm", "parts", kind);
+  quads_.push_back({iri("arm"), type, kind});
+  quads_.push_back({kind, type, iri("Kind")});
+  const std::string text = write();
+  EXPECT_TRUE(rdf::compare_quads(quads_, read(text), terms_, 1000)) << text;
+}
+
 TEST_F(Writing, KeepsEveryDoubleExactly) {
   for (const double value : {0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -0.0, 1e22, 1e21,
                              123456789.0, 0.30000000000000004, std::nextafter(1.0, 2.0)}) {
