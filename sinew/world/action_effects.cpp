@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sinew/rdf/sparql/engine.h"
+#include "sinew/world/edit.h"
 #include "sinew/world/impl.h"
 #include "sinew/world/message_text.h"
 #include "sinew/world/refuse.h"
@@ -79,10 +80,49 @@ FactText text_of(const graph::Terms& terms, const graph::Quad& fact) {
           terms.to_string(fact.object), fact.graph ? terms.to_string(fact.graph) : ""};
 }
 
-// In the store of one world, as one transaction.
-ActionOutcome perform_in(World& world, const ActionModel& model, const ActionCall& call) {
+std::vector<Attached> pairs(const graph::View& view, graph::Terms& terms, const ActionModel& model,
+                            const std::string& query) {
+  std::vector<Attached> found;
+  if (query.empty()) return found;
+  const rdf::sparql::Answer answer = ask(view, terms, model.name, query);
+  const auto& columns = answer.results.columns;
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) -
+                                    columns.begin());
+  };
+  const std::size_t frame = column("frame"), parent = column("parent");
+  for (const auto& row : answer.results.rows) {
+    if (!row[frame] || !row[parent]) {
+      refuse(model.name, "a frame or a parent is not bound where it attaches or detaches",
+             "a row for each pair of frames");
+    }
+    found.push_back({std::string(terms.text(row[frame])), std::string(terms.text(row[parent]))});
+  }
+  return found;
+}
+
+FrameId frame_of(const Edit& edit, const ActionModel& model, const std::string& iri) {
+  const FrameId frame = edit.find_frame(iri);
+  if (!frame)
+    refuse(model.name, "it attaches or detaches " + iri + ", which is no frame", "a frame");
+  return frame;
+}
+
+void ask_to_relate(const Rights* rights, const ActionCall& call, const std::string& frame) {
+  if (!rights) return;
+  if (const auto reason = rights->reason_against(call.who, Act::kRelate, frame)) {
+    refuse(frame, *reason, "a rule that allows " + call.who + " to change-relation");
+  }
+}
+
+// In one world. `rights`: of who performs it; null: nobody is asked.
+ActionOutcome perform_in(World& world, const ActionModel& model, const ActionCall& call,
+                         const Rights* rights) {
   graph::Store& store = world.graph();
   graph::Terms& terms = store.terms();
+  // First the world's lock, then the store's, as every edit takes them; one that is not committed
+  // leaves no trace.
+  Edit edit = world.edit();
   const std::vector<graph::Quad> before = facts_of(store.view());
   graph::Transaction transaction = store.begin();
   put_arguments(transaction, terms, model, call);
@@ -99,12 +139,14 @@ ActionOutcome perform_in(World& world, const ActionModel& model, const ActionCal
     }
     throw Error(std::move(problems));
   }
+  ActionOutcome outcome;
+  outcome.attached = pairs(transaction.view(), terms, model, model.attach);
+  outcome.detached = pairs(transaction.view(), terms, model, model.detach);
   rdf::sparql::UpdateOptions options;
   options.name = model.name;
   rdf::sparql::update(transaction, terms, model.effect, options);
   transaction.clear(terms.iri(kArgumentsGraph));
   const FactChanges changes = changes_between(before, facts_of(transaction.view()));
-  ActionOutcome outcome;
   const Id description = terms.iri(world.impl().iri);
   for (const auto& [from, to] :
        {std::pair(&changes.begun, &outcome.begun), std::pair(&changes.ended, &outcome.ended)}) {
@@ -119,7 +161,16 @@ ActionOutcome perform_in(World& world, const ActionModel& model, const ActionCal
     }
     std::sort(to->begin(), to->end());
   }
+  for (const auto& [frame, parent] : outcome.detached) {
+    ask_to_relate(rights, call, frame);
+    edit.detach(frame_of(edit, model, frame), frame_of(edit, model, parent), call.now, call.who);
+  }
+  for (const auto& [frame, parent] : outcome.attached) {
+    ask_to_relate(rights, call, frame);
+    edit.attach(frame_of(edit, model, frame), frame_of(edit, model, parent), call.now, call.who);
+  }
   transaction.commit();
+  if (!outcome.attached.empty() || !outcome.detached.empty()) edit.commit();
   return outcome;
 }
 
@@ -171,6 +222,16 @@ void Actions::add(ActionModel model) {
              "{x} for a selected variable ?x");
     }
   }
+  for (const std::string* query : {&model.attach, &model.detach}) {
+    if (query->empty()) continue;
+    const auto columns = ask(empty.view(), empty.terms(), model.name, *query).results.columns;
+    for (const char* needed : {"frame", "parent"}) {
+      if (std::find(columns.begin(), columns.end(), needed) == columns.end()) {
+        refuse(model.name, "what it attaches or detaches does not select ?" + std::string(needed),
+               "SELECT ?frame ?parent");
+      }
+    }
+  }
   rdf::sparql::QueryOptions options;
   options.name = model.name;
   rdf::sparql::check_update(empty.terms(), model.effect, options);
@@ -195,7 +256,7 @@ ActionOutcome Actions::perform(World& world, const ActionCall& call,
       }
     }
     if (supervision.history) supervision.history->observe(world.graph(), call.now);
-    ActionOutcome outcome = perform_in(world, model, call);
+    ActionOutcome outcome = perform_in(world, model, call, supervision.rights);
     if (supervision.history) supervision.history->observe(world.graph(), call.now);
     return outcome;
   });
@@ -207,7 +268,7 @@ PredictedAction Actions::predict(const World& world, const ActionCall& call,
     const ActionModel& model = find(call.action);
     check_arguments(model, call);
     World clone = world.clone();
-    ActionOutcome outcome = perform_in(clone, model, call);
+    ActionOutcome outcome = perform_in(clone, model, call, nullptr);
     return PredictedAction{std::move(clone), std::move(outcome)};
   });
 }

@@ -18,10 +18,16 @@
 // `w:this a` the action. They lie in a graph of their own, kArgumentsGraph, which is empty before
 // and after.
 //
-// Performing is one transaction: all of the effect, or nothing and an Error that names the action
-// and every precondition that fails. What the world's description says follows from its structure,
-// so an effect that changes it is refused: attach and detach do that. `predict` does the same in a
-// clone, and hands it over. Both are audited.
+// The structure: each row of `attach` (SELECT ?frame ?parent) is attached, each of `detach`
+// detached towards the parent, as the situation before the effect has them. What the world's
+// description says follows from its structure, so an effect that changes it otherwise is refused.
+//
+// Performing is all of it, or nothing and an Error that names the action and every precondition
+// that fails. Facts and structure change one right after the other, the structure last. `predict`
+// does the same in a clone, and hands it over. Both are audited.
+//
+// Threads: an action takes turns with edits, writes and clones of the world. Whoever else changes
+// the store, as rules do, takes turns with actions (graph::Terms).
 #pragma once
 
 #include <cstddef>
@@ -52,7 +58,9 @@ struct ActionModel {
   std::string name;                          // IRI
   std::vector<std::string> parameters = {};  // IRIs of properties
   std::vector<Precondition> preconditions = {};
-  std::string effect;  // SPARQL update
+  std::string effect;       // SPARQL update
+  std::string attach = {};  // SELECT ?frame ?parent, or nothing
+  std::string detach = {};
 };
 
 struct ActionCall {
@@ -68,8 +76,15 @@ struct FactText {
   friend auto operator<=>(const FactText&, const FactText&) = default;
 };
 
+struct Attached {
+  std::string frame, parent;  // IRIs
+  friend auto operator<=>(const Attached&, const Attached&) = default;
+};
+
 struct ActionOutcome {
-  std::vector<FactText> begun, ended;  // what holds now and did not, and the other way round
+  // What holds now and did not, and the other way round; the description of the structure apart.
+  std::vector<FactText> begun, ended;
+  std::vector<Attached> attached, detached;  // in the order of the rows
 };
 
 struct PredictedAction {
@@ -79,14 +94,16 @@ struct PredictedAction {
 
 // Who watches over actions; all may be left out.
 struct ActionSupervision {
-  const Rights* rights = nullptr;          // Act::kPerform on the action's IRI
+  // Act::kPerform on the action's IRI, Act::kRelate on each frame that is attached or detached.
+  const Rights* rights = nullptr;
   std::shared_ptr<Audit> audit = nullptr;  // of both
   FactHistory* history = nullptr;          // observes what was performed, before and after
 };
 
 class Actions {
  public:
-  // Throws Error with the action's name when a text is no ASK or SELECT, or no update; when a
+  // Throws Error with the action's name when a text is no ASK or SELECT, or no update, or does not
+  // select ?frame and ?parent; when a
   // message names a variable that the SELECT does not have; when the name is taken, or there are
   // kMaximumActions.
   void add(ActionModel model);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+
 #include "sinew/rdf/sparql/engine.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/situation_rules.h"
@@ -206,6 +209,94 @@ TEST(Actions, WhatTheStructureSaysIsNotChangedByAnEffect) {
   EXPECT_EQ(facts_of(shop.world.graph().view()), before);
 }
 
+// Picking also attaches: what is in the gripper moves with it, in the prediction before and in the
+// world afterwards; and if it cannot be attached, nothing has happened at all.
+TEST(Actions, TheStructureFollowsTheAction) {
+  Workshop shop;
+  const FrameId table = shop.world.add_frame("http://x/table-frame"),
+                tool = shop.world.add_frame("http://x/tool-frame"),
+                bolt = shop.world.add_frame("http://x/bolt-frame");
+  const auto measured = [&](const char* name, FrameId of) {
+    const RelationId relation =
+        shop.world.add_relation({.name = name, .of = of, .with_respect_to = table});
+    return shop.world.add_measurement({.name = std::string(name) + "/value", .relation = relation});
+  };
+  const MeasurementId arm = measured("http://x/arm-pose", tool),
+                      seen = measured("http://x/bolt-pose", bolt);
+  shop.world.add_object("http://x/bolt", bolt);
+  shop.world.write(arm, at_s(0), Pose{{}, {0, 0, 1}}, {"me"});
+  ActionModel grasp = kPicking;
+  grasp.name = "http://x/grasp";
+  grasp.attach = kPrefixes +
+                 "SELECT ?frame ?parent WHERE { w:this x:part ?part . ?part "
+                 "w:attached-to ?frame . BIND(x:tool-frame AS ?parent) }";
+  ActionModel release = kPlacing;
+  release.name = "http://x/release";
+  release.detach = kPrefixes +
+                   "SELECT ?frame ?parent WHERE { x:gripper x:holds ?part . ?part "
+                   "w:attached-to ?frame . BIND(x:table-frame AS ?parent) }";
+  shop.actions.add(grasp);
+  shop.actions.add(release);
+  ActionCall call = shop.pick("bolt");
+  call.action = grasp.name;
+
+  // Nobody has seen the bolt: it cannot be attached, and the gripper does not hold it either.
+  const auto before = facts_of(shop.world.graph().view());
+  const std::uint64_t structure = shop.world.structure_version();
+  EXPECT_EQ(problems([&] { shop.actions.perform(shop.world, call); }).size(), 1u);
+  EXPECT_EQ(facts_of(shop.world.graph().view()), before);
+  EXPECT_EQ(shop.world.structure_version(), structure);
+
+  shop.world.write(seen, at_s(0), Pose{{}, {0.5, 0, 0}}, {"me"});
+  PredictedAction predicted = shop.actions.predict(shop.world, call);
+  EXPECT_EQ(predicted.outcome.attached,
+            (std::vector<Attached>{{"http://x/bolt-frame", "http://x/tool-frame"}}));
+  predicted.world.write(arm, at_s(1), Pose{{}, {0, 0, 3}}, {"me"});
+  EXPECT_EQ(predicted.world.pose(bolt, table, at_s(1)).pose.p.z, 2);  // carried up
+  EXPECT_EQ(shop.world.pose(bolt, table, at_s(1)).pose.p.z, 0);
+  EXPECT_EQ(facts_of(shop.world.graph().view()), before);
+
+  // The planner may perform it, but not change where the bolt hangs.
+  Rights rights;
+  rights.allow("http://x/planner", Act::kPerform, kAnything);
+  EXPECT_EQ(problems([&] { shop.actions.perform(shop.world, call, {.rights = &rights}); }).size(),
+            1u);
+  EXPECT_EQ(facts_of(shop.world.graph().view()), before);
+  rights.allow("http://x/planner", Act::kRelate, "http://x/bolt-frame");
+  shop.actions.perform(shop.world, call, {.rights = &rights});
+  shop.world.write(arm, at_s(1), Pose{{}, {0, 0, 3}}, {"me"});
+  EXPECT_EQ(shop.world.pose(bolt, table, at_s(1)).pose.p.z, 2);
+  EXPECT_TRUE(shop.ask(shop.world, "x:gripper x:holds x:bolt"));
+
+  ActionCall put = shop.place();
+  put.action = release.name;
+  shop.actions.perform(shop.world, put);
+  shop.world.write(arm, at_s(3), Pose{{}, {0, 0, 9}}, {"me"});
+  EXPECT_EQ(shop.world.pose(bolt, table, at_s(3)).pose.p.z, 2);  // stays where it was let go
+  EXPECT_TRUE(shop.ask(shop.world, "x:bolt x:lies-on x:shelf"));
+}
+
+// Actions and edits of other threads take turns, in whatever order they come.
+TEST(Actions, TakeTurnsWithEdits) {
+  Workshop shop;
+  std::atomic<bool> stop = false;
+  std::thread editing([&] {
+    for (int i = 0; !stop; ++i) {
+      const FrameId frame = shop.world.add_frame("http://x/passing" + std::to_string(i));
+      shop.world.remove(frame);
+    }
+  });
+  for (int i = 0; i < 200; ++i) {
+    shop.actions.perform(shop.world, shop.pick("bolt", i));
+    shop.actions.perform(shop.world, shop.place(i));
+    ActionCall again = shop.pick("bolt", i);
+    if (i % 10 == 0) shop.actions.predict(shop.world, again);
+  }
+  stop = true;
+  editing.join();
+  EXPECT_TRUE(shop.ask(shop.world, "x:bolt x:lies-on x:shelf"));
+}
+
 TEST(Actions, WhatIsNoActionIsRefused) {
   Workshop shop;
   const auto refused = [&](ActionModel model) {
@@ -224,6 +315,8 @@ TEST(Actions, WhatIsNoActionIsRefused) {
                        .effect = effect}));
   EXPECT_TRUE(refused(
       {.name = "http://x/a", .preconditions = {{"ASK { ?s ?p ?o }", ""}}, .effect = effect}));
+  EXPECT_TRUE(refused(
+      {.name = "http://x/a", .effect = effect, .attach = "SELECT ?frame WHERE { ?frame ?p ?o }"}));
   EXPECT_FALSE(refused({.name = "http://x/a", .effect = effect}));
 
   EXPECT_THROW(shop.actions.perform(shop.world, {"http://x/none", {}, "me", at_s(1)}), Error);
