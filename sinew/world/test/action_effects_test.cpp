@@ -6,7 +6,9 @@
 #include <atomic>
 #include <thread>
 
+#include "sinew/model/load.h"
 #include "sinew/rdf/sparql/engine.h"
+#include "sinew/world/declared_actions.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/situation_rules.h"
 
@@ -295,6 +297,62 @@ TEST(Actions, TakeTurnsWithEdits) {
   stop = true;
   editing.join();
   EXPECT_TRUE(shop.ask(shop.world, "x:bolt x:lies-on x:shelf"));
+}
+
+// ---- as models ----
+
+struct FromModel {
+  explicit FromModel(const std::string& turtle) {
+    const std::string text =
+        "@prefix w: <https://w3id.org/sinew/world#> . @prefix x: <http://x/> .\n" + turtle;
+    const model::Source source{"actions.ttl", text};
+    model::load({&source, 1}, {}, store, places, report);
+    read_actions(store, places, actions, report);
+  }
+  graph::Store store;
+  graph::Places places;
+  Actions actions;
+  Report report;
+};
+
+TEST(DeclaredActions, AModelIsTheActionThatItDescribes) {
+  const FromModel declared(
+      "x:open a w:Action ; w:parameter x:door ;\n"
+      "  w:precondition [ w:query \"PREFIX x: <http://x/> PREFIX w: "
+      "<https://w3id.org/sinew/world#> ASK { w:this x:door ?door . ?door x:is x:closed }\" ; "
+      "w:message \"it is not closed\" ] ;\n"
+      "  w:effect \"PREFIX x: <http://x/> PREFIX w: <https://w3id.org/sinew/world#> DELETE { ?door "
+      "x:is x:closed } INSERT { ?door x:is x:open } WHERE { w:this x:door ?door }\" .\n");
+  ASSERT_FALSE(declared.report.has_errors()) << to_string(declared.report.problems().front());
+  ASSERT_EQ(declared.actions.size(), 1u);
+  Workshop shop;
+  const ActionCall open{"http://x/open", {{"http://x/door", "http://x/gate"}}, "me", at_s(1)};
+  EXPECT_EQ(declared.actions.reasons_against(shop.world, open),
+            (std::vector<std::string>{"it is not closed"}));
+  graph::Store& store = shop.world.graph();
+  const auto iri = [&](const char* name) { return store.terms().iri(name); };
+  store.add({iri("http://x/gate"), iri("http://x/is"), iri("http://x/closed")});
+  declared.actions.perform(shop.world, open);
+  EXPECT_TRUE(shop.ask(shop.world, "x:gate x:is x:open"));
+  EXPECT_FALSE(shop.ask(shop.world, "x:gate x:is x:closed"));
+}
+
+TEST(DeclaredActions, FaultsHaveAPlace) {
+  const std::string effect = "w:effect \"INSERT DATA { <a:b> <a:b> <a:b> }\" ";
+  const std::pair<std::string, std::string> cases[] = {
+      {"x:a a w:Action .", "actions.ttl:2: http://x/a"},
+      {"\nx:a a w:Action ; w:effect \"INSERT DATO {}\" .", "actions.ttl:3: http://x/a"},
+      {"x:a a w:Action ; w:precondition [ w:query \"ASK {}\" ] ; " + effect + ".",
+       "why not, when it fails"},
+      {"x:a a w:Action ; w:attaches \"SELECT ?frame WHERE {}\" ; " + effect + ".",
+       "does not select ?parent"}};
+  for (const auto& [turtle, expected] : cases) {
+    const FromModel declared(turtle);
+    ASSERT_TRUE(declared.report.has_errors()) << turtle;
+    EXPECT_NE(to_string(declared.report.problems().front()).find(expected), std::string::npos)
+        << to_string(declared.report.problems().front());
+    EXPECT_EQ(declared.actions.size(), 0u);
+  }
 }
 
 TEST(Actions, WhatIsNoActionIsRefused) {
