@@ -21,6 +21,9 @@ using program::Node;
 using program::Op;
 using program::Ref;
 
+// Fewer zeros than this are written one by one.
+constexpr std::size_t kLeastZeros = 4;
+
 class Emitter {
  public:
   Emitter(const Computation& computation, const FlatLayout& layout, const FlatOptions& options)
@@ -41,6 +44,7 @@ class Emitter {
   }
 
   FlatBody run() {
+    find_results();
     const AngleGroups groups = group_angles(computation_);
     for (const AngleGroup& group : groups.groups) {
       for (const std::uint32_t node : group.before) emit(node);
@@ -50,13 +54,16 @@ class Emitter {
     for (std::uint32_t i = 0; i < names_.size(); ++i) {
       if (!names_[i].empty() && dag_.node(i).op != Op::kInput) before.push_back(i);
     }
-    parts_ = divide_into_parts(computation_, before, groups.after, options_.maximum_statements);
+    std::vector<Ref> last;  // what is read at the end
+    for (const std::uint32_t k : later_) last.push_back(computation_.results[k]);
+    parts_ =
+        divide_into_parts(computation_, before, groups.after, last, options_.maximum_statements);
     if (parts_.parts.empty()) {
       for (const std::uint32_t node : groups.after) emit(node);
     } else {
       call_parts(before);
     }
-    results();
+    later_results();
     for (const std::string& array : arrays_) {
       if (!touched_.contains(array)) line(fmt::format("(void){};", array));
     }
@@ -106,7 +113,7 @@ class Emitter {
     std::string parameters, arguments;
     for (const std::string& array : arrays_) {
       if (array == "in" || array == "out") continue;
-      // Only the results are written, and they are not written by the parts.
+      // Parts write to `out` only.
       parameters += fmt::format(", const {} *{}", scalar_, array);
       arguments += ", " + array;
     }
@@ -115,9 +122,12 @@ class Emitter {
       arguments += ", n";
       touched_.insert("n");
     }
-    for (const std::string& array : arrays_) {
-      if (array != "out") touched_.insert(array);
+    const bool has_out = std::find(arrays_.begin(), arrays_.end(), "out") != arrays_.end();
+    if (has_out) {
+      parameters += fmt::format(", {} *{}_RESTRICT out", scalar_, upper_);
+      arguments += ", out";
     }
+    for (const std::string& array : arrays_) touched_.insert(array);
     line(fmt::format("{0}_ALIGNED {3} kept[{1}{2}];", upper_, parts_.slots,
                      block_form_ ? fmt::format(" * {}_LANES", upper_) : "", scalar_));
     for (const std::uint32_t node : before) keep(node);
@@ -136,7 +146,7 @@ class Emitter {
       }
       line("(void)in;");
       for (const std::string& array : arrays_) {
-        if (array != "in" && array != "out") line(fmt::format("(void){};", array));
+        if (array != "in") line(fmt::format("(void){};", array));
       }
       if (strided()) line("(void)n;");
       block_->add("}");
@@ -207,9 +217,10 @@ class Emitter {
     names_[i] = unique(fmt::format("t{}", ++count_));
     if (block_form_ && (node.op == Op::kSqrt || node.op == Op::kSelect)) {
       lane_by_lane(i, node);
-      return;
+    } else {
+      line(fmt::format("const {} {} = {};", type_, names_[i], expression), node.origin);
     }
-    line(fmt::format("const {} {} = {};", type_, names_[i], expression), node.origin);
+    results_of(i);
   }
 
   std::string express(const Node& n) {
@@ -387,27 +398,70 @@ class Emitter {
     }
   }
 
-  // The results may not be written before every input has been read: they are at the end.
-  void results() {
-    for (std::uint32_t i = 0; i < computation_.results.size(); ++i) value(computation_.results[i]);
-    for (std::uint32_t i = 0; i < computation_.results.size(); ++i) {
-      const Ref result = computation_.results[i];
-      const FlatPlace& place = layout_.results[i];
-      const std::uint32_t origin = dag_.node(result).origin;
-      if (!block_form_) {
-        line(fmt::format("{} = {};", element(place), value(result)), origin);
-        continue;
-      }
-      const std::string number =
-          dag_.is_constant(result) ? value(result) + " + zero" : value(result);
-      if (dag_.is_constant(result) && !zero_) {
-        line(fmt::format("const {} zero = {{ 0 }};", type_));
-        zero_ = true;
-      }
-      line(fmt::format("{{ const {0} y = {1}; memcpy({2}, &y, sizeof y); }}", type_, number,
-                       address(place)),
-           origin);
+  // Results go to `out` as soon as they are computed, so that they need no register to the end.
+  // States may not be written before all have been read: with what is no operation, they come last.
+  void find_results() {
+    results_of_.resize(dag_.size());
+    for (std::uint32_t k = 0; k < computation_.results.size(); ++k) {
+      const std::uint32_t node = computation_.results[k].node();
+      const Op op = dag_.node(node).op;
+      const bool at_once = std::string_view(layout_.results[k].array) == "out" &&
+                           program::arity(op) > 0 && op != Op::kSin && op != Op::kCos;
+      (at_once ? results_of_[node] : later_).push_back(k);
     }
+  }
+
+  void results_of(std::uint32_t node) {
+    for (const std::uint32_t k : results_of_[node]) write(k);
+  }
+
+  void later_results() {
+    for (const std::uint32_t k : later_) value(computation_.results[k]);
+    for (std::size_t at = 0; at < later_.size();) {
+      const std::size_t zeros = block_form_ || strided() ? 0 : zeros_from(at);
+      if (zeros >= kLeastZeros) {
+        const FlatPlace& place = layout_.results[later_[at]];
+        touched_.insert(place.array);
+        line(fmt::format("memset({0} + {1}, 0, {2} * sizeof *{0});", place.array, place.index,
+                         zeros));
+        at += zeros;
+      } else {
+        write(later_[at++]);
+      }
+    }
+  }
+
+  // How many results from this one on are 0 and lie side by side.
+  std::size_t zeros_from(std::size_t at) const {
+    std::size_t n = 0;
+    const FlatPlace& first = layout_.results[later_[at]];
+    for (; at + n < later_.size(); ++n) {
+      const std::uint32_t k = later_[at + n];
+      const FlatPlace& place = layout_.results[k];
+      if (!dag_.is_constant(computation_.results[k], 0.0) || place.index != first.index + n ||
+          std::string_view(place.array) != first.array) {
+        break;
+      }
+    }
+    return n;
+  }
+
+  void write(std::uint32_t k) {
+    const Ref result = computation_.results[k];
+    const FlatPlace& place = layout_.results[k];
+    const std::uint32_t origin = dag_.node(result).origin;
+    if (!block_form_) {
+      line(fmt::format("{} = {};", element(place), value(result)), origin);
+      return;
+    }
+    const std::string number = dag_.is_constant(result) ? value(result) + " + zero" : value(result);
+    if (dag_.is_constant(result) && !zero_) {
+      line(fmt::format("const {} zero = {{ 0 }};", type_));
+      zero_ = true;
+    }
+    line(fmt::format("{{ const {0} y = {1}; memcpy({2}, &y, sizeof y); }}", type_, number,
+                     address(place)),
+         origin);
   }
 
   const FlatLayout& layout_;
@@ -419,8 +473,10 @@ class Emitter {
   std::string scalar_, suffix_;  // "float", "f" behind the names of functions
   std::string type_;             // of a value
   std::vector<std::string> arrays_;
-  std::unordered_set<std::string> touched_;  // arrays, and n, that the code names
-  std::vector<std::string> names_;           // of nodes; empty: not emitted yet
+  std::unordered_set<std::string> touched_;             // arrays, and n, that the code names
+  std::vector<std::string> names_;                      // of nodes; empty: not emitted yet
+  std::vector<std::vector<std::uint32_t>> results_of_;  // of a node: written with it
+  std::vector<std::uint32_t> later_;                    // results that are written at the end
   std::uint32_t count_ = 0;
   bool zero_ = false;
   FlatParts parts_;

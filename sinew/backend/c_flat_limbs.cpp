@@ -14,6 +14,7 @@
 namespace sinew::backend {
 namespace {
 
+using program::Computation;
 using program::LimbProgram;
 using program::LimbRegion;
 using program::LimbSource;
@@ -21,6 +22,9 @@ using program::Node;
 using program::Op;
 using program::Ref;
 using Sources = std::vector<LimbSource>;
+
+// Fewer zeros than this are written one by one.
+constexpr std::size_t kLeastZeros = 4;
 
 constexpr std::size_t kWidest = 16;  // sines that are computed at once; arrays are padded to it
 
@@ -53,9 +57,10 @@ class Emitter {
   }
 
   LimbBody run() {
+    find_results();
     sines_of_inputs();
     for (at_ = 0; at_ < program_.regions.size(); ++at_) {
-      const program::Computation& computation = region().computation;
+      const Computation& computation = region().computation;
       std::vector<std::uint32_t> order = computation.order;
       if (order.empty()) {
         order.resize(computation.dag.size());
@@ -63,19 +68,64 @@ class Emitter {
       }
       for (const std::uint32_t i : order) {
         const Op op = dag().node(i).op;
-        if (live_[at_][i] && program::arity(op) > 0 && op != Op::kLess) value(i);
+        if (!live_[at_][i] || program::arity(op) == 0 || op == Op::kLess) continue;
+        value(i);
+        for (const std::uint32_t k : results_of_[at_][i]) write(k);
       }
     }
-    std::vector<std::string> results;
-    for (const LimbSource& source : program_.results) results.push_back(text(source));
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      const FlatPlace& place = layout_.results[i];
-      line(fmt::format("{}[{}] = {};", place.array, place.index, results[i]));
+    for (std::size_t at = 0; at < later_.size();) {
+      const std::size_t zeros = zeros_from(at);
+      if (zeros >= kLeastZeros) {
+        const FlatPlace& place = layout_.results[later_[at]];
+        line(fmt::format("memset({0} + {1}, 0, {2} * sizeof *{0});", place.array, place.index,
+                         zeros));
+        at += zeros;
+      } else {
+        write(later_[at++]);
+      }
     }
     return std::move(body_);
   }
 
  private:
+  // Results are written as soon as they are computed, so that they need no register to the end.
+  void find_results() {
+    for (const LimbRegion& region : program_.regions) {
+      results_of_.emplace_back(region.computation.dag.size());
+    }
+    for (std::uint32_t k = 0; k < program_.results.size(); ++k) {
+      const LimbSource& source = program_.results[k];
+      const bool of_region = source.kind == LimbSource::Kind::kRegion;
+      const Computation* computation =
+          of_region ? &program_.regions[source.region].computation : nullptr;
+      const Ref ref = of_region ? computation->results[source.index] : Ref{};
+      if (of_region && program::arity(computation->dag.node(ref).op) > 0) {
+        results_of_[source.region][ref.node()].push_back(k);
+      } else {
+        later_.push_back(k);
+      }
+    }
+  }
+
+  void write(std::uint32_t k) {
+    const FlatPlace& place = layout_.results[k];
+    line(fmt::format("{}[{}] = {};", place.array, place.index, text(program_.results[k])));
+  }
+
+  // How many results from this one on are 0 and lie side by side.
+  std::size_t zeros_from(std::size_t at) const {
+    std::size_t n = 0;
+    const std::uint32_t first = layout_.results[later_[at]].index;
+    for (; at + n < later_.size(); ++n) {
+      const LimbSource& source = program_.results[later_[at + n]];
+      if (source.kind != LimbSource::Kind::kConstant || source.value != 0.0 ||
+          layout_.results[later_[at + n]].index != first + n) {
+        break;
+      }
+    }
+    return n;
+  }
+
   const LimbRegion& region() const { return program_.regions[at_]; }
   const program::Dag& dag() const { return region().computation.dag; }
   bool in_lanes() const { return region().lanes > 1; }
@@ -334,7 +384,9 @@ class Emitter {
   std::string upper_, scalar_, suffix_;
   std::vector<std::vector<std::string>> names_;  // [region][node]
   std::vector<std::vector<bool>> live_;
-  std::size_t at_ = 0;  // the region
+  std::vector<std::vector<std::vector<std::uint32_t>>> results_of_;  // [region][node]
+  std::vector<std::uint32_t> later_;  // results that no region computes
+  std::size_t at_ = 0;                // the region
   std::size_t count_ = 0, groups_ = 0;
   std::unordered_set<std::string> used_ = {"in", "out", "angle", "sine", "cosine"};
   LimbBody body_;

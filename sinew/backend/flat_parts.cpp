@@ -14,7 +14,8 @@ constexpr std::uint32_t kNowhere = 0xffffffffU;
 
 FlatParts divide_into_parts(const program::Computation& computation,
                             const std::vector<std::uint32_t>& before,
-                            const std::vector<std::uint32_t>& nodes, std::size_t maximum) {
+                            const std::vector<std::uint32_t>& nodes,
+                            const std::vector<Ref>& last_read, std::size_t maximum) {
   const program::Dag& dag = computation.dag;
   FlatParts result;
   result.slot.assign(dag.size(), FlatParts::kNoSlot);
@@ -48,7 +49,7 @@ FlatParts divide_into_parts(const program::Computation& computation,
     visit(dag.node(i), visit);
   }
   const auto end = static_cast<std::uint32_t>(result.parts.size() + 1);
-  for (const Ref result_ref : computation.results) reads(end, result_ref.node());
+  for (const Ref ref : last_read) reads(end, ref.node());
 
   // A slot is free again behind the part that reads it last.
   std::vector<std::vector<std::uint32_t>> freed(end + 1);

@@ -18,10 +18,11 @@ struct FlatParts {
   std::uint32_t slots = 0;          // size of the array
 };
 
-// `nodes` are to be computed in this order, after everything in `before`. Where they are no more
-// than `maximum` there are no parts.
+// `nodes` are to be computed in this order, after everything in `before`; those of `last` are read
+// after all of them. Where they are no more than `maximum` there are no parts.
 FlatParts divide_into_parts(const program::Computation& computation,
                             const std::vector<std::uint32_t>& before,
-                            const std::vector<std::uint32_t>& nodes, std::size_t maximum);
+                            const std::vector<std::uint32_t>& nodes,
+                            const std::vector<program::Ref>& last, std::size_t maximum);
 
 }  // namespace sinew::backend

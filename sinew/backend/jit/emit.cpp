@@ -30,6 +30,8 @@ struct Place {
 };
 
 using Load = std::function<LLVMValueRef(std::uint32_t input)>;
+// Called with the value of each node in turn.
+using Computed = std::function<void(std::uint32_t node, LLVMValueRef value)>;
 
 // Emits what a computation does on numbers of one type: doubles or vectors of them.
 class ComputationEmitter {
@@ -53,8 +55,9 @@ class ComputationEmitter {
     count_uses();
   }
 
-  // The results.
-  std::vector<LLVMValueRef> emit() {
+  // The results. `computed` may write them as soon as they are there, so that they need no register
+  // to the end.
+  std::vector<LLVMValueRef> emit(const Computed& computed) {
     emit_sines_of_inputs();
     std::vector<std::uint32_t> order = computation_.order;
     if (order.empty()) {
@@ -62,7 +65,7 @@ class ComputationEmitter {
       std::iota(order.begin(), order.end(), 0u);
     }
     for (const std::uint32_t index : order) {
-      if (live_[index] && !is_fused(index)) (void)value(index);
+      if (live_[index] && !is_fused(index)) computed(index, value(index));
     }
     std::vector<LLVMValueRef> results;
     for (const Ref result : computation_.results) results.push_back(signed_value(result));
@@ -279,11 +282,18 @@ void emit_samples(const Computation& computation, const Place& place, LLVMTypeRe
     LLVMSetAlignment(value, bytes_of(number));
     return value;
   };
-  const std::vector<LLVMValueRef> results =
-      ComputationEmitter(computation, place, type, load).emit();
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    LLVMSetAlignment(LLVMBuildStore(place.builder, results[i], address(1, i)), bytes_of(number));
+  std::vector<std::vector<std::uint32_t>> results_of(computation.dag.size());  // of each node
+  for (std::uint32_t i = 0; i < computation.results.size(); ++i) {
+    results_of[computation.results[i].node()].push_back(i);
   }
+  const auto store = [&](std::uint32_t node, LLVMValueRef value) {
+    for (const std::uint32_t i : results_of[node]) {
+      const LLVMValueRef result =
+          computation.results[i].negative() ? LLVMBuildFNeg(place.builder, value, "") : value;
+      LLVMSetAlignment(LLVMBuildStore(place.builder, result, address(1, i)), bytes_of(number));
+    }
+  };
+  ComputationEmitter(computation, place, type, load).emit(store);
   LLVMBuildRetVoid(place.builder);
 }
 
@@ -294,19 +304,40 @@ class LimbEmitter {
       : program_(program), place_(place), number_(number) {}
 
   void emit() {
+    // Results by the region and the node that they come from; the others are no operations.
+    std::vector<std::vector<std::vector<std::uint32_t>>> results_of;
     for (const program::LimbRegion& region : program_.regions) {
+      results_of.emplace_back(region.computation.dag.size());
+    }
+    std::vector<std::uint32_t> others;
+    for (std::uint32_t i = 0; i < program_.results.size(); ++i) {
+      const program::LimbSource& source = program_.results[i];
+      if (source.kind == program::LimbSource::Kind::kRegion) {
+        const program::Computation& of = program_.regions[source.region].computation;
+        results_of[source.region][of.results[source.index].node()].push_back(i);
+      } else {
+        others.push_back(i);
+      }
+    }
+    for (const program::LimbRegion& region : program_.regions) {
+      const std::size_t at = results_.size();
       unsigned width = 1;
       while (width < region.lanes) width *= 2;
       const LLVMTypeRef type = width == 1 ? number_ : LLVMVectorType(number_, width);
       const auto load = [&](std::uint32_t input) {
         return gathered(region.inputs[input], type, width);
       };
-      results_.push_back(ComputationEmitter(region.computation, place_, type, load).emit());
+      const auto computed = [&](std::uint32_t node, LLVMValueRef value) {
+        for (const std::uint32_t i : results_of[at][node]) {
+          const program::LimbSource& source = program_.results[i];
+          const bool negative =
+              source.negative != region.computation.results[source.index].negative();
+          store(i, lane_of(value, region.lanes, source.lane), negative);
+        }
+      };
+      results_.push_back(ComputationEmitter(region.computation, place_, type, load).emit(computed));
     }
-    for (std::size_t i = 0; i < program_.results.size(); ++i) {
-      LLVMSetAlignment(LLVMBuildStore(place_.builder, number(program_.results[i]), address(1, i)),
-                       bytes_of(number_));
-    }
+    for (const std::uint32_t i : others) store(i, number(program_.results[i]), false);
     LLVMBuildRetVoid(place_.builder);
   }
 
@@ -318,6 +349,16 @@ class LimbEmitter {
     LLVMValueRef offset = integer(index);
     return LLVMBuildInBoundsGEP2(place_.builder, number_, LLVMGetParam(place_.function, parameter),
                                  &offset, 1, "");
+  }
+
+  void store(std::uint32_t result, LLVMValueRef value, bool negative) const {
+    if (negative) value = LLVMBuildFNeg(place_.builder, value, "");
+    LLVMSetAlignment(LLVMBuildStore(place_.builder, value, address(1, result)), bytes_of(number_));
+  }
+
+  LLVMValueRef lane_of(LLVMValueRef value, std::uint32_t lanes, std::uint32_t lane) const {
+    if (lanes == 1) return value;
+    return LLVMBuildExtractElement(place_.builder, value, integer(lane), "");
   }
 
   LLVMValueRef number(const program::LimbSource& source) const {
@@ -333,10 +374,8 @@ class LimbEmitter {
       default:
         break;
     }
-    LLVMValueRef value = results_[source.region][source.index];
-    if (program_.regions[source.region].lanes > 1) {
-      value = LLVMBuildExtractElement(place_.builder, value, integer(source.lane), "");
-    }
+    const LLVMValueRef value = lane_of(results_[source.region][source.index],
+                                       program_.regions[source.region].lanes, source.lane);
     return source.negative ? LLVMBuildFNeg(place_.builder, value, "") : value;
   }
 

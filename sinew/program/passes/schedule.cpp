@@ -40,7 +40,6 @@ class Scheduler {
         ++missing_[i];
       });
     }
-    for (const Ref result : computation.results) ++unread_[result.node()];  // live to the end
   }
 
   std::vector<std::uint32_t> run() {
@@ -51,7 +50,7 @@ class Scheduler {
     std::vector<std::uint32_t> free;  // constants and inputs: they come first
     for (std::uint32_t i = 0; i < n; ++i) {
       if (!live_[i]) continue;
-      growth_[i] = in_register(dag_.node(i).op) ? 1 : 0;
+      growth_[i] = stays(i) ? 1 : 0;
       for_each_operand(dag_.node(i), [&](std::uint32_t operand) {
         if (unread_[operand] == 1 && in_register(dag_.node(operand).op)) --growth_[i];
       });
@@ -67,8 +66,8 @@ class Scheduler {
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffU;
-  static constexpr int kLeastGrowth = -2;  // frees three, needs one
-  static constexpr int kGrowths = 4;       // up to 1
+  static constexpr int kLeastGrowth = -3;  // frees three, needs none
+  static constexpr int kGrowths = 5;       // up to 1
 
   enum class State : std::uint8_t { kWaiting, kReady, kDone };
 
@@ -80,6 +79,9 @@ class Scheduler {
     }
   };
   using Queue = std::vector<std::uint32_t>;  // a heap; may hold nodes that are no longer in it
+
+  // A result that nobody else needs is written at once.
+  bool stays(std::uint32_t i) const { return in_register(dag_.node(i).op) && !users_[i].empty(); }
 
   Queue& queue_of(std::uint32_t i) {
     return ready_[static_cast<std::size_t>(growth_[i] - kLeastGrowth)];
@@ -116,7 +118,7 @@ class Scheduler {
         if (state_[user] == State::kReady) push(user);
       }
     });
-    if (in_register(node.op)) ++count_;
+    if (stays(next)) ++count_;
     for (const std::uint32_t user : users_[next]) {
       if (--missing_[user] == 0) push(user);
     }
@@ -156,7 +158,6 @@ std::uint32_t live_values(const Computation& computation) {
   for (std::uint32_t i = 0; i < dag.size(); ++i) {
     if (live[i]) for_each_operand(dag.node(i), [&](std::uint32_t operand) { ++unread[operand]; });
   }
-  for (const Ref result : computation.results) ++unread[result.node()];
   std::uint32_t count = 0;
   std::uint32_t most = 0;
   const auto visit = [&](std::uint32_t i) {
@@ -164,7 +165,8 @@ std::uint32_t live_values(const Computation& computation) {
     for_each_operand(dag.node(i), [&](std::uint32_t operand) {
       if (--unread[operand] == 0 && in_register(dag.node(operand).op)) --count;
     });
-    if (in_register(dag.node(i).op)) most = std::max(most, ++count);
+    if (in_register(dag.node(i).op)) most = std::max(most, count + 1);
+    if (in_register(dag.node(i).op) && unread[i] > 0) ++count;
   };
   if (computation.order.empty()) {
     for (std::uint32_t i = 0; i < dag.size(); ++i) visit(i);
