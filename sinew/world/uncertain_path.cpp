@@ -24,13 +24,18 @@ struct Measured {
   std::vector<double> values;
 };
 
+World::Sample sample(const World& world, MeasurementId measurement, Stamp time, Asking asking) {
+  return asking == Asking::kAt ? world.at(measurement, time) : world.latest(measurement, time);
+}
+
 // Of the measurements of a step the one that a pose query uses (plan_reading.h, read_step): the
 // preferred one, otherwise the first that has an answer.
-Measured measured(const World& world, const Plan& plan, const PlanStep& step, Stamp now) {
+Measured measured(const World& world, const Plan& plan, const PlanStep& step, Stamp now,
+                  Asking asking) {
   std::vector<World::Sample> samples;
   std::uint32_t preferred = 0;
   for (std::uint32_t i = 0; i < step.count; ++i) {
-    samples.push_back(world.latest(plan.candidates[step.first + i].measurement, now));
+    samples.push_back(sample(world, plan.candidates[step.first + i].measurement, now, asking));
     if (step.freshest && samples[i].bounds.newest > samples[preferred].bounds.newest) preferred = i;
   }
   std::uint32_t used = preferred;
@@ -67,7 +72,7 @@ constexpr std::uint64_t kSeedStep = 0x9E3779B97F4A7C15;  // 2^64 / golden ratio
 
 // In a world that is made for one question: what its measurements state becomes what is known of
 // them, of whatever kind.
-void state_deviations(const World& still, const Uncertainties& known, Stamp now) {
+void state_deviations(const World& still, const Uncertainties& known, Stamp time, Asking asking) {
   WorldImpl& impl = still.impl();
   State next = impl.published();
   const EditToken token = fresh_token();
@@ -75,7 +80,7 @@ void state_deviations(const World& still, const Uncertainties& known, Stamp now)
     const MeasurementRecord* const record = next.measurements.find(measurement.index);
     if (!record || !record->alive) continue;
     const RelationKind kind = next.relations[record->relation].kind;
-    const auto displacement = known.find(still, measurement, kind, now);
+    const auto displacement = known.find(still, measurement, kind, time, asking);
     if (!displacement) continue;
     MeasurementModel model = *record->model;
     model.standard_deviation = total_deviation(*displacement);
@@ -140,7 +145,8 @@ void Uncertainties::set_exact(MeasurementId measurement) {
 }
 
 std::optional<PoseDistribution> Uncertainties::find(const World& world, MeasurementId measurement,
-                                                    RelationKind kind, Stamp now) const {
+                                                    RelationKind kind, Stamp time,
+                                                    Asking asking) const {
   const auto found = declared_.find(measurement);
   if (found == declared_.end()) return std::nullopt;
   if (const auto* stated = std::get_if<PoseDistribution>(&found->second)) return *stated;
@@ -151,8 +157,12 @@ std::optional<PoseDistribution> Uncertainties::find(const World& world, Measurem
     about_z.covariance(axis, axis) = joint->variance;
     return about_z;
   }
-  const World::Sample numbers = world.latest(std::get<MeasurementId>(found->second), now);
-  if (numbers.bounds.newest != world.latest(measurement, now).bounds.newest) return std::nullopt;
+  const World::Sample numbers = sample(world, std::get<MeasurementId>(found->second), time, asking);
+  const World::Sample pose = sample(world, measurement, time, asking);
+  if (asking == Asking::kAt ? numbers.stamp != time || pose.stamp != time
+                            : numbers.bounds.newest != pose.bounds.newest) {
+    return std::nullopt;
+  }
   return from_numbers(numbers.values);
 }
 
@@ -162,20 +172,22 @@ std::vector<MeasurementId> Uncertainties::declared() const {
   return all;
 }
 
-DistributedPose pose_distribution(const World& world, const PoseQuery& query,
-                                  const Uncertainties& known, Stamp now,
-                                  const CombineOptions& options) {
+namespace {
+
+DistributedPose distribution_of(const World& world, const PoseQuery& query,
+                                const Uncertainties& known, Stamp time, Asking asking,
+                                const CombineOptions& options) {
   const World still = world.clone();
   if (query.choice == Choice::kMostCertain || query.way == Way::kMostCertain) {
-    state_deviations(still, known, now);
+    state_deviations(still, known, time, asking);
   }
   const State state = still.state();
-  const PreparedPose prepared = still.prepare_pose(query);
+  PreparedPose prepared = still.prepare_pose(query);
   DistributedPose answer;
   answer.status = prepared.status();
   if (answer.status != Status::kOk) return answer;
   // What would be answered without uncertainty, and all reasons why not.
-  const PoseAnswer certain = prepared.latest_realtime(now);
+  const PoseAnswer certain = asking == Asking::kAt ? prepared.at(time) : prepared.latest(time);
   answer.status = certain.status;
   if (answer.status != Status::kOk) return answer;
 
@@ -190,7 +202,7 @@ DistributedPose pose_distribution(const World& world, const PoseQuery& query,
     Pose mean = walked.value;
     MeasurementId used = walked.measurement_id;
     if (!walked.constant) {
-      const Measured found = measured(still, plan, plan.steps[step++], now);
+      const Measured found = measured(still, plan, plan.steps[step++], time, asking);
       answer.status = found.status;
       if (answer.status != Status::kOk) return answer;
       mean = pose_of(relation, found.values);
@@ -201,7 +213,7 @@ DistributedPose pose_distribution(const World& world, const PoseQuery& query,
              "a way without a loop");
     }
     PoseDistribution next = mean;
-    if (const auto displacement = known.find(still, used, relation.kind, now)) {
+    if (const auto displacement = known.find(still, used, relation.kind, time, asking)) {
       next = compose(next, *displacement, options);
       all_centred = all_centred && is_centred(*displacement);
     } else {
@@ -218,6 +230,20 @@ DistributedPose pose_distribution(const World& world, const PoseQuery& query,
     if (auto* gaussian = std::get_if<GaussianPose>(&answer.pose)) gaussian->mean = certain.pose;
   }
   return answer;
+}
+
+}  // namespace
+
+DistributedPose pose_distribution(const World& world, const PoseQuery& query,
+                                  const Uncertainties& known, Stamp now,
+                                  const CombineOptions& options) {
+  return distribution_of(world, query, known, now, Asking::kLatest, options);
+}
+
+DistributedPose pose_distribution_at(const World& world, const PoseQuery& query,
+                                     const Uncertainties& known, Stamp time,
+                                     const CombineOptions& options) {
+  return distribution_of(world, query, known, time, Asking::kAt, options);
 }
 
 UncertainPose uncertain_pose(const World& world, const PoseQuery& query, const Uncertainties& known,

@@ -30,6 +30,9 @@
 
 namespace sinew::world {
 
+// The last entries, as of now, or the state at a time (prepared.h).
+enum class Asking : std::uint8_t { kLatest, kAt };
+
 class Uncertainties {
  public:
   // Of a pose X_AB, seen from B. Throws Error when the measurement is no pose, or S no covariance.
@@ -50,10 +53,11 @@ class Uncertainties {
   void set_exact(MeasurementId measurement);
 
   // The displacement of a relation's measurement, as `world` has it now. Nothing where nothing is
-  // declared, or what is measured is of another stamp than the pose, or no distribution. A joint's
-  // is about or along z.
+  // declared, or what is measured is of another stamp than the pose (and, for Asking::kAt, than the
+  // time: between two entries nothing is said), or no distribution. A joint's is about or along z.
   std::optional<PoseDistribution> find(const World& world, MeasurementId measurement,
-                                       RelationKind kind, Stamp now) const;
+                                       RelationKind kind, Stamp time,
+                                       Asking asking = Asking::kLatest) const;
   std::vector<MeasurementId> declared() const;
 
  private:
@@ -75,6 +79,10 @@ struct DistributedPose {
 DistributedPose pose_distribution(const World& world, const PoseQuery& query,
                                   const Uncertainties& known, Stamp now,
                                   const CombineOptions& options = {});
+// At a time: between entries, by models, and from histories, as PreparedPose::at.
+DistributedPose pose_distribution_at(const World& world, const PoseQuery& query,
+                                     const Uncertainties& known, Stamp time,
+                                     const CombineOptions& options = {});
 
 struct UncertainPose {
   Status status = Status::kNoData;      // as of a pose query

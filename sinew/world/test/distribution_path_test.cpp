@@ -195,5 +195,51 @@ TEST(DistributedPath, ADistributionMayBeMeasured) {
   EXPECT_EQ(answer.undeclared.size(), 1u);
 }
 
+// At a time of the past: the pose between entries, the declared covariance about it, and a measured
+// distribution at its own stamps only.
+TEST(DistributedPath, OfThePastIsThePoseOfThen) {
+  std::mt19937_64 random(10);
+  Shelf cell;
+  const std::uint32_t room = numbers_of_components(2);
+  const MeasurementId numbers =
+      cell.world.add_measurement({.name = "http://x/hypotheses",
+                                  .relation = cell.world.find_relation("http://x/seeing"),
+                                  .quantity = Quantity::kOther,
+                                  .values = room});
+  cell.known.set(cell.world, cell.held, isotropic(0.02, 0.03));
+  cell.known.set(cell.world, cell.seen, isotropic(0.01, 0.01));
+  for (int i = 1; i <= 5; ++i) {
+    const Stamp at = kThen + std::chrono::seconds(i);
+    const Pose X = random_pose(random);
+    const double pose[] = {X.q.x, X.q.y, X.q.z, X.q.w, X.p.x, X.p.y, X.p.z};
+    PoseMixture sides = two_sides(random);
+    sides.components[0].weight = 1 - 0.1 * i, sides.components[1].weight = 0.1 * i;
+    const std::vector<double> coded = to_numbers(sides, room);
+    const World::Value both[] = {{cell.seen, pose}, {numbers, coded}};
+    ASSERT_EQ(cell.world.write_together(at, both, {"me"}), Status::kOk);
+    ASSERT_EQ(cell.world.write(cell.held, at, random_pose(random), {"me"}), Status::kOk);
+  }
+  PreparedPose query = cell.world.prepare_pose(cell.query());
+  const Stamp between = kThen + std::chrono::milliseconds(2300);
+  DistributedPose answer = pose_distribution_at(cell.world, cell.query(), cell.known, between);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(difference(std::get<GaussianPose>(answer.pose).mean, query.at(between).pose), 0);
+  EXPECT_GT(difference(query.at(between).pose, query.latest(between).pose), 0.01);
+  EXPECT_EQ(
+      pose_distribution_at(cell.world, cell.query(), cell.known, kThen - std::chrono::seconds(1))
+          .status,
+      Status::kTooOld);
+
+  cell.known.set_measured(cell.world, cell.seen, numbers);
+  answer = pose_distribution_at(cell.world, cell.query(), cell.known, between);
+  EXPECT_EQ(answer.undeclared, (std::vector<std::string>{"http://x/seen"}));
+  for (int i = 1; i <= 5; ++i) {
+    answer =
+        pose_distribution_at(cell.world, cell.query(), cell.known, kThen + std::chrono::seconds(i));
+    ASSERT_TRUE(answer);
+    EXPECT_NEAR(std::get<PoseMixture>(answer.pose).components[1].weight, 0.1 * i, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace sinew::world
