@@ -120,6 +120,8 @@ LoadedCode::~LoadedCode() {
   if (library_ != nullptr) dlclose(library_);
 }
 
+void* LoadedCode::find(const char* name) const { return dlsym(library_, name); }
+
 LoadedCode compile_and_load(const GeneratedCode& code, const CompileOptions& options) {
   const TemporaryFolder folder;
   std::string source;

@@ -37,6 +37,8 @@ class LoadedCode {
     return reinterpret_cast<StatefulFunction>(function_);
   }
   StatefulBatch stateful_batch() const { return reinterpret_cast<StatefulBatch>(batch_); }
+  // Any function of the code by its name, or nullptr: NAME_update, functions on floats.
+  void* find(const char* name) const;
   // Machine code, constants included [bytes].
   std::size_t code_bytes() const { return code_bytes_; }
 
