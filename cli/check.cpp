@@ -1,5 +1,7 @@
 // sinew check MODEL…: shapes, units, frames and physics in one report.
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 
 #include "options.h"
 #include "output.h"
@@ -10,6 +12,10 @@
 #include "sinew/rdf/shacl/shapes.h"
 #include "sinew/rdf/shacl/validation.h"
 #include "sinew/rdf/turtle/reader.h"
+#include "sinew/vocab/standard.h"
+#include "sinew/vocab/vocab.h"
+#include "sinew/world/declared_rights.h"
+#include "sinew/world/scene.h"
 
 namespace sinew::cli {
 namespace {
@@ -48,12 +54,29 @@ rdf::shacl::Shapes all_shapes(Models& models, const ModelOptions& options,
                                   &models.places);
 }
 
+bool has_type(const Models& models, std::string_view type) {
+  const graph::Terms& terms = models.store.terms();
+  const graph::Id is_a = terms.find_iri(vocab::rdf::type), id = terms.find_iri(type);
+  return is_a && id && bool(models.store.view().subject(is_a, id));
+}
+bool has_links(const Models& models) {
+  return has_type(models, vocab::geom::SimplicialComplex) || has_type(models, vocab::kc::Joint);
+}
+// Whether there is something of which load_scene and what follows it makes a world.
+bool has_scene(const Models& models) {
+  constexpr std::string_view kTypes[] = {vocab::w::Object, vocab::w::Area, vocab::w::Measurement,
+                                         vocab::w::PoseValue, vocab::w::RelationRule};
+  return std::any_of(std::begin(kTypes), std::end(kTypes),
+                     [&](std::string_view type) { return has_type(models, type); });
+}
+
 }  // namespace
 
 int run_check(Arguments arguments) {
   CLI::App app(
       "Check models: conformance to the shapes of every metamodel, units, frames, and whether the "
-      "robot is physically possible. Prints every fault with its place.",
+      "robot is physically possible; of a scene, that it can be loaded. Prints every fault with "
+      "its place.",
       "sinew check");
   ModelOptions models_options;
   std::vector<std::string> shape_files;
@@ -73,7 +96,21 @@ int run_check(Arguments arguments) {
   Report report(10'000);
   std::vector<std::string> notes;
   std::size_t bodies = 0, joints = 0;
-  if (!only_shapes) {
+  const bool is_scene = has_scene(*models);
+  std::size_t frames = 0, objects = 0, shaped = 0;
+  if (!only_shapes && is_scene) {
+    world::World world;
+    world::load_scene(world, models->store, models->places, report);
+    if (!report.has_errors()) {
+      shaped = world::read_scene(world, models->store, models->places, report).bodies.size();
+      world::read_rights(models->store, models->places, report);
+    }
+    const world::State state = world.state();
+    frames = state.frames.size();
+    objects = state.objects.size();
+  }
+  const bool is_robot = has_links(*models) || !is_scene;
+  if (!only_shapes && is_robot) {
     model::NormaliseOptions options;
     options.base = base;
     const model::Tree tree = model::normalise(models->store, models->places, options, report);
@@ -103,7 +140,13 @@ int run_check(Arguments arguments) {
   if (report.has_errors()) return kFault;
   if (format == "text") {
     std::cout << "conforms to " << shapes.shapes.size() << " shapes";
-    if (!only_shapes) std::cout << "; " << bodies << " bodies, " << joints << " moving joints";
+    if (!only_shapes && is_robot) {
+      std::cout << "; " << bodies << " bodies, " << joints << " moving joints";
+    }
+    if (!only_shapes && is_scene) {
+      std::cout << "; a scene of " << frames << " frames, " << objects << " objects, " << shaped
+                << " with shapes";
+    }
     std::cout << "\n";
   }
   return kOk;

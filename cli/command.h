@@ -31,5 +31,6 @@ int run_bench(Arguments arguments);
 int run_explain(Arguments arguments);
 int run_convert(Arguments arguments);
 int run_blocks(Arguments arguments);
+int run_world(Arguments arguments);
 
 }  // namespace sinew::cli

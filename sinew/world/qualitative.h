@@ -88,6 +88,9 @@ class Relations {
 
   // A number that rules use: the reach of a robot.
   void declare(BodyId body, std::string_view property, double value);
+  bool declares(BodyId body, std::string_view property) const {
+    return declared_.contains({body, std::string(property)});
+  }
 
   // Throws Error for a relation without a rule, a body too few, or a property not declared.
   Judgement judge(const Question& question) const;

@@ -1,5 +1,6 @@
 // A world and what its scene declares, as a model: the way back of scene.cpp and
 // read_declared_scene.cpp.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -172,9 +173,29 @@ struct SceneWriter {
     add(node, w("value"), value);
   }
 
+  // A frame of which other models say all that there is: it has relations, and each is left out.
+  bool is_left_out(Index frame) const {
+    if (!options.leave_out || state.frames[frame].first_relation == kNone) return false;
+    for (Index at = state.frames[frame].first_relation; at != kNone;) {
+      if (!options.leave_out(RelationId{at})) return false;
+      const RelationRecord& relation = state.relations[at];
+      at = relation.of == frame ? relation.next_at_of : relation.next_at_with_respect_to;
+    }
+    for (Index i = 0; i < state.objects.size(); ++i) {
+      if (state.objects[i].alive && state.objects[i].frame == frame) return false;
+    }
+    return std::none_of(scene.bodies.begin(), scene.bodies.end(), [&](const DeclaredBody& body) {
+      return body.frame.index == frame ||
+             std::any_of(body.shapes.begin(), body.shapes.end(),
+                         [&](const DeclaredShape& shape) { return shape.seen_by.index == frame; });
+    });
+  }
+
   void structure() {
     for (Index i = 0; i < state.frames.size(); ++i) {
-      if (state.frames[i].alive) type(iri(world.name(FrameId{i})), vocab::geom::Frame);
+      if (state.frames[i].alive && !is_left_out(i)) {
+        type(iri(world.name(FrameId{i})), vocab::geom::Frame);
+      }
     }
     for (Index i = 0; i < state.objects.size(); ++i) {
       const ObjectRecord& object = state.objects[i];
