@@ -1,29 +1,54 @@
 #include "sinew/graph/pages.h"
 
+#include <bit>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
+#include <mutex>
 #include <new>
 
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
 
+// The address sanitizer is to see every block come and go.
+#if defined(__SANITIZE_ADDRESS__)
+#define SINEW_PLAIN_PAGES 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SINEW_PLAIN_PAGES 1
+#endif
+#endif
+#ifndef __linux__
+#define SINEW_PLAIN_PAGES 1
+#endif
+
 namespace sinew::graph {
 
-#ifdef __linux__
+#ifdef SINEW_PLAIN_PAGES
+
+void* allocate_zeroed(std::size_t size) {
+  void* memory = std::calloc(size, 1);
+  if (!memory) throw std::bad_alloc();
+  return memory;
+}
+
+void* allocate_raw(std::size_t size) {
+  void* memory = std::malloc(size);
+  if (!memory) throw std::bad_alloc();
+  return memory;
+}
+
+void release_pages(void* memory, std::size_t) { std::free(memory); }
+
+#else
 
 namespace {
 
 std::size_t rounded(std::size_t size) { return (size + kHugePage - 1) & ~(kHugePage - 1); }
 
-}  // namespace
-
-void* allocate_zeroed(std::size_t size) {
-  if (size < kHugePage) {
-    void* memory = std::calloc(size, 1);
-    if (!memory) throw std::bad_alloc();
-    return memory;
-  }
+// Zeroed, aligned to huge pages.
+void* map_pages(std::size_t size) {
   // One huge page more than needed, then the ends that are not aligned are given back.
   const std::size_t kept = rounded(size), asked = kept + kHugePage;
   void* mapped = mmap(nullptr, asked, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -37,24 +62,104 @@ void* allocate_zeroed(std::size_t size) {
   return begin + before;
 }
 
-void release_zeroed(void* memory, std::size_t size) {
+// Blocks of 2^n bytes, from kSmallest to half a huge page: from the list of those that came back,
+// else half of the next larger one that came back, else from a huge page that is cut from its
+// beginning.
+class Pool {
+ public:
+  // `zero` tells whether the block is known to be zero.
+  void* allocate(std::size_t size, bool& zero) {
+    const unsigned wanted = order_of(size);
+    const std::lock_guard lock(mutex_);
+    unsigned order = wanted;
+    while (order < kOrders && !free_[order]) ++order;
+    zero = order == kOrders;
+    if (zero) return cut(wanted);
+    Block* const block = take(order);
+    while (order > wanted) {
+      --order;
+      put(reinterpret_cast<char*>(block) + bytes_of(order), order);
+    }
+    return block;
+  }
+  void release(void* memory, std::size_t size) {
+    const std::lock_guard lock(mutex_);
+    put(memory, order_of(size));
+  }
+
+ private:
+  struct Block {
+    Block* next;
+  };
+  static constexpr std::size_t kSmallest = std::size_t{1} << 11;
+  static constexpr unsigned kOrders = std::bit_width(kHugePage / kSmallest) - 1;
+
+  static std::size_t bytes_of(unsigned order) { return kSmallest << order; }
+  static unsigned order_of(std::size_t size) {
+    return size <= kSmallest ? 0 : static_cast<unsigned>(std::bit_width((size - 1) / kSmallest));
+  }
+  Block* take(unsigned order) {
+    Block* const block = free_[order];
+    free_[order] = block->next;
+    return block;
+  }
+  void put(void* memory, unsigned order) { free_[order] = new (memory) Block{free_[order]}; }
+  void* cut(unsigned order) {
+    if (static_cast<std::size_t>(end_ - next_) < bytes_of(order)) {
+      char* const page = static_cast<char*>(map_pages(kHugePage));
+      for (unsigned rest = kOrders; rest-- > 0;) {
+        // What is left of the page before, in the largest blocks that fit.
+        while (static_cast<std::size_t>(end_ - next_) >= bytes_of(rest)) {
+          put(next_, rest);
+          next_ += bytes_of(rest);
+        }
+      }
+      next_ = page;
+      end_ = page + kHugePage;
+    }
+    void* const block = next_;
+    next_ += bytes_of(order);
+    return block;
+  }
+
+  std::mutex mutex_;
+  Block* free_[kOrders] = {};
+  char* next_ = nullptr;
+  char* end_ = nullptr;
+};
+
+// Never destroyed: stores may outlive it in static objects.
+Pool& pool() {
+  static Pool& made = *new Pool;
+  return made;
+}
+
+bool is_pooled(std::size_t size) { return size <= kHugePage / 2; }
+
+}  // namespace
+
+void* allocate_zeroed(std::size_t size) {
+  if (!is_pooled(size)) return map_pages(size);
+  bool zero = false;
+  void* const memory = pool().allocate(size, zero);
+  if (!zero) std::memset(memory, 0, size);
+  return memory;
+}
+
+void* allocate_raw(std::size_t size) {
+  if (!is_pooled(size)) return map_pages(size);
+  bool zero = false;
+  return pool().allocate(size, zero);
+}
+
+void release_pages(void* memory, std::size_t size) {
   if (!memory) return;
-  if (size < kHugePage) {
-    std::free(memory);
+  if (is_pooled(size)) {
+    pool().release(memory, size);
   } else {
     munmap(memory, rounded(size));
   }
 }
-
-#else
-
-void* allocate_zeroed(std::size_t size) {
-  void* memory = std::calloc(size, 1);
-  if (!memory) throw std::bad_alloc();
-  return memory;
-}
-
-void release_zeroed(void* memory, std::size_t) { std::free(memory); }
 
 #endif
 

@@ -1,6 +1,12 @@
-// Zeroed memory for large tables. From kHugePage on, it is asked for in huge pages where the system
-// has them: filling a store is otherwise dominated by page faults, and looking up by misses of the
-// TLB.
+// Memory for the tables of stores and dictionaries.
+//
+// A page that the system has never given to this process costs a page fault, some ten times what it
+// costs to write the page again, and stores are filled faster than faults are served. So small
+// blocks are cut from huge pages (where the system has them) and kept for the next store when they
+// come back: at most as much stays here as was in use at once, in blocks of each size. Blocks from
+// kHugePage on are mapped in huge pages of their own and go back to the system.
+//
+// Any thread may allocate and release.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +15,10 @@ namespace sinew::graph {
 
 inline constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
-// Throws std::bad_alloc.
+// Throw std::bad_alloc.
 void* allocate_zeroed(std::size_t size);
+void* allocate_raw(std::size_t size);  // whatever it holds
 // `size` as it was asked for; null is fine.
-void release_zeroed(void* memory, std::size_t size);
+void release_pages(void* memory, std::size_t size);
 
 }  // namespace sinew::graph

@@ -6,9 +6,11 @@
 //   PO  the subjects of a predicate and object     P  everything of a predicate
 //   OS  the predicates between object and subject  O  everything of an object
 // The head of each list is a Posting, found by hash for a pair of terms and by array for one term.
-// Most lists of pairs have one triple: then the hash table leads to the triple itself. That a
-// triple is held by a graph is a Membership, with versions of its own; a triple is visible while at
-// least one of its memberships is.
+// Most lists of pairs have one triple: then the hash table leads to the triple itself. What is
+// between an object and a subject is looked for in the shorter of their own lists; only triples
+// whose subject and object both are crowded, which few are, are in a list OS. That a triple is held
+// by a graph is a Membership, with versions of its own; a triple is visible while at least one of
+// its memberships is.
 //
 // Concurrency: one writer, any number of readers, no locks. Records never move and are reached
 // through release/acquire links. Versions grow along every list, so a reader of version v stops at
@@ -51,8 +53,12 @@ struct Membership {
 };
 static_assert(sizeof(Membership) == 32);
 
+// A term whose list was once longer than this is crowded.
+inline constexpr std::uint32_t kUncrowded = 16;
+
 struct Posting {
-  std::uint32_t first, second;  // the key of a pair
+  // The key of a pair. Of one subject's or object's list: whether it is crowded, and 0.
+  std::uint32_t first, second;
   std::uint32_t head;
   std::uint32_t tail;      // writer only
   std::uint32_t count;     // records in the list, also those that were removed meanwhile
@@ -85,12 +91,12 @@ struct GraphMark {
 // Reading of the tables at one version; all inline, because matching is the innermost loop of
 // queries.
 struct Records {
-  StableArray<Triple> triples;  // 1 .. triple_count
-  StableArray<Membership> memberships;
-  StableArray<Posting> postings;
+  StableArray<Triple, Fill::kRaw> triples;  // 1 .. triple_count
+  StableArray<Membership, Fill::kRaw> memberships;
+  StableArray<Posting, Fill::kRaw> postings;
   StableArray<Node> nodes;  // by term
-  StableArray<Graph> graphs;
-  StableArray<GraphMark> marks;
+  StableArray<Graph, Fill::kRaw> graphs;
+  StableArray<GraphMark, Fill::kRaw> marks;
   SlotTable pairs[3];  // kListSP, kListPO, kListOS
   std::uint32_t triple_count = 0;
   std::uint32_t membership_count = 0;
@@ -122,8 +128,12 @@ struct Records {
   // changing, and may be passed over: whatever is in its list was added later.
   SlotTable::Slot find_pair(List list, Pair pair, Version version,
                             std::uint32_t* at = nullptr) const {
+    return find_pair(list, pair, hash_pair(pair.first, pair.second), version, at);
+  }
+  SlotTable::Slot find_pair(List list, Pair pair, std::uint32_t hash, Version version,
+                            std::uint32_t* at) const {
     return pairs[list].find(
-        hash_pair(pair.first, pair.second),
+        hash,
         [&](SlotTable::Slot slot) {
           if (slot.marked()) {
             const Posting& posting = postings[slot.number()];
@@ -134,10 +144,12 @@ struct Records {
         },
         at);
   }
-  Run pair(List list, std::uint32_t first, std::uint32_t second, Version version) const {
-    const SlotTable::Slot found = find_pair(list, {first, second}, version);
+  Run run_of(SlotTable::Slot found) const {
     if (!found) return {};
     return found.marked() ? run_of(postings[found.number()]) : Run{found.number(), 1};
+  }
+  Run pair(List list, std::uint32_t first, std::uint32_t second, Version version) const {
+    return run_of(find_pair(list, {first, second}, version));
   }
   const Posting* single(List list, std::uint32_t term) const {
     const Node* node = nodes.find(term);
@@ -147,12 +159,27 @@ struct Records {
                                                        : node->as_object);
     return number ? &postings[number] : nullptr;
   }
-  // Precondition: one or two of the three are not 0. Sets `list`.
+  static bool crowded(const Posting& posting) { return load(posting.first) != 0; }
+  // What contains all that is between the two, and perhaps more. Sets `list`.
+  Run between(std::uint32_t subject, std::uint32_t object, Version version, List& list) const {
+    const Posting* const of_subject = single(list = kListS, subject);
+    const Posting* const of_object = single(kListO, object);
+    if (!of_subject || !of_object) return {};
+    if (crowded(*of_subject) && crowded(*of_object)) {
+      return pair(list = kListOS, object, subject, version);
+    }
+    const Run from = run_of(*of_subject), to = run_of(*of_object);
+    if (from.count <= to.count) return from;
+    list = kListO;
+    return to;
+  }
+  // Precondition: one or two of the three are not 0. Sets `list`. Where the predicate alone is
+  // missing, the run may contain triples of other terms as well.
   Run run(std::uint32_t subject, std::uint32_t predicate, std::uint32_t object, Version version,
           List& list) const {
     if (subject && predicate) return pair(list = kListSP, subject, predicate, version);
     if (predicate && object) return pair(list = kListPO, predicate, object, version);
-    if (object && subject) return pair(list = kListOS, object, subject, version);
+    if (object && subject) return between(subject, object, version, list);
     list = subject ? kListS : predicate ? kListP : kListO;
     const Posting* posting = single(list, subject ? subject : predicate ? predicate : object);
     return posting ? run_of(*posting) : Run{};
@@ -182,23 +209,30 @@ struct Records {
     return false;
   }
 
-  // The visible triple, or 0. The list of OS is nearly always the shortest; where it is not short,
-  // the shortest of the three is searched.
+  // The visible triple, or 0. The list of SP is nearly always short; where it is not, the shortest
+  // of the three is searched.
   std::uint32_t find(std::uint32_t subject, std::uint32_t predicate, std::uint32_t object,
                      Version version) const {
+    return find(subject, predicate, object, version, pair(kListSP, subject, predicate, version));
+  }
+  std::uint32_t find(std::uint32_t subject, std::uint32_t predicate, std::uint32_t object,
+                     Version version, Run of_pair) const {
     constexpr std::uint32_t kShort = 8;
-    List list = kListOS;
-    Run best = pair(kListOS, object, subject, version);
+    List list = kListSP;
+    Run best = of_pair;
     if (best.count > kShort) {
-      const Run sp = pair(kListSP, subject, predicate, version);
       const Run po = pair(kListPO, predicate, object, version);
-      if (sp.count < best.count) best = sp, list = kListSP;
       if (po.count < best.count) best = po, list = kListPO;
+      if (best.count > kShort) {
+        List other;
+        const Run os = between(subject, object, version, other);
+        if (os.count < best.count) best = os, list = other;
+      }
     }
     for (std::uint32_t at = best.head; at != 0;) {
       const Triple& triple = triples[at];
       if (load(triple.added) > version) return 0;
-      if (triple.predicate == predicate && triple.subject == subject && triple.object == object &&
+      if (triple.object == object && triple.subject == subject && triple.predicate == predicate &&
           still_there(triple, version)) {
         return at;
       }

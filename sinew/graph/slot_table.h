@@ -34,16 +34,22 @@ class SlotTable {
     std::uint64_t word_;
   };
   // The number whose key has this hash and for which `is_key(Slot)` holds; false where there is
-  // none. `at` is set to where it is, valid until the table grows.
+  // none. `at` is set to where it is, or to where it would be inserted; valid until the table
+  // changes.
   template <typename IsKey>
   Slot find(std::uint32_t hash, IsKey&& is_key, std::uint32_t* at = nullptr) const {
     const Table* table = table_.load(std::memory_order_acquire);
     hash &= kHashBits;
+    std::uint32_t stone = UINT32_MAX;
     for (std::uint32_t here = hash & table->mask;; here = (here + 1) & table->mask) {
       const std::uint64_t word = table->slots[here].load(std::memory_order_acquire);
-      if (word == 0) return Slot();
-      if ((static_cast<std::uint32_t>(word >> 32) & kHashBits) != hash) continue;
       const Slot slot(word);
+      if (word == 0) {
+        if (at) *at = stone == UINT32_MAX ? here : stone;
+        return slot;
+      }
+      if (at && word == kStone && stone == UINT32_MAX) stone = here;
+      if ((static_cast<std::uint32_t>(word >> 32) & kHashBits) != hash) continue;
       if (slot.number() == 0 || !is_key(slot)) continue;
       if (at) *at = here;
       return slot;
@@ -52,14 +58,23 @@ class SlotTable {
 
   // ---- writer only ----
 
-  // Returns the slot. Precondition: number > 0, and its key is not in the table.
-  std::uint32_t insert(std::uint32_t hash, std::uint32_t number, bool marked = false) {
-    if (used_ >= limit_) grow();
-    ++used_;
-    return place(present(), word(hash, number, marked));
+  void prefetch(std::uint32_t hash) const {
+    const Table& table = present();
+    __builtin_prefetch(&table.slots[hash & kHashBits & table.mask], 1);
   }
-  Slot at(std::uint32_t slot) const {
-    return Slot(present().slots[slot].load(std::memory_order_relaxed));
+  // Precondition: number > 0, its key is not in the table, and `at` is where `find` ended.
+  void insert(std::uint32_t at, std::uint32_t hash, std::uint32_t number, bool marked = false) {
+    const std::uint64_t slot = word(hash, number, marked);
+    std::atomic<std::uint64_t>& free = present().slots[at];
+    if (free.load(std::memory_order_relaxed) == 0) {
+      if (used_ >= limit_) {
+        grow();
+        ++used_;
+        return place(present(), slot);
+      }
+      ++used_;
+    }
+    free.store(slot, std::memory_order_release);
   }
   // Gives the key in this slot another number.
   void replace(std::uint32_t slot, std::uint32_t number, bool marked) {
@@ -67,17 +82,24 @@ class SlotTable {
     const auto hash = static_cast<std::uint32_t>(word.load(std::memory_order_relaxed) >> 32);
     word.store(this->word(hash, number, marked), std::memory_order_release);
   }
-  // Takes out what was inserted last of all that is there; `growths()` then tells whether the table
-  // grew since. If it did, the order of the slots is another one, and a stone stays behind until it
-  // grows again.
-  void erase(std::uint32_t slot, bool grew_since) {
+  // Takes the key in this slot out. What stands behind it may have been moved on by it, so a stone
+  // takes its place until the next key comes by, unless nothing stands there: then the stones
+  // before it go, too.
+  void erase(std::uint32_t slot) {
     Table& table = present();
-    const bool keeps_chain =
-        grew_since && table.slots[(slot + 1) & table.mask].load(std::memory_order_relaxed) != 0;
-    table.slots[slot].store(keeps_chain ? kStone : 0, std::memory_order_release);
-    if (!keeps_chain) --used_;
+    const auto at = [&](std::uint32_t number) -> std::atomic<std::uint64_t>& {
+      return table.slots[number & table.mask];
+    };
+    if (at(slot + 1).load(std::memory_order_relaxed) != 0) {
+      at(slot).store(kStone, std::memory_order_release);
+      return;
+    }
+    do {
+      at(slot).store(0, std::memory_order_release);
+      --used_;
+      --slot;
+    } while (at(slot).load(std::memory_order_relaxed) == kStone);
   }
-  std::uint32_t growths() const { return growths_; }
 
   // Precondition: this one is new.
   void copy_from(const SlotTable& other) {
@@ -90,11 +112,11 @@ class SlotTable {
 
  private:
   static constexpr std::uint32_t kFirstMask = 255;
-  static constexpr std::uint32_t kLargeMask = 0xFFFF;  // below it, tables grow by four
+  static constexpr std::uint32_t kLargeMask = 0x3FFF;  // below it, tables grow by four
   struct Table {
     explicit Table(std::uint32_t last)
         : mask(last), slots(static_cast<std::atomic<std::uint64_t>*>(allocate_zeroed(bytes()))) {}
-    ~Table() { release_zeroed(slots, bytes()); }
+    ~Table() { release_pages(slots, bytes()); }
     Table(const Table&) = delete;
     Table& operator=(const Table&) = delete;
     std::size_t bytes() const { return (std::size_t{mask} + 1) * sizeof(std::uint64_t); }
@@ -109,23 +131,21 @@ class SlotTable {
   static std::uint64_t word(std::uint32_t hash, std::uint32_t number, bool marked) {
     return std::uint64_t{(hash & kHashBits) | (marked ? kMark : 0)} << 32 | number;
   }
-  static std::uint32_t place(Table& table, std::uint64_t slot) {
+  static void place(Table& table, std::uint64_t slot) {
     std::uint32_t at = static_cast<std::uint32_t>(slot >> 32) & kHashBits & table.mask;
     while (table.slots[at].load(std::memory_order_relaxed) != 0) at = (at + 1) & table.mask;
     table.slots[at].store(slot, std::memory_order_release);
-    return at;
   }
   void install(std::uint32_t mask) {
     tables_.push_back(std::make_unique<Table>(mask));
-    // Five eighths full at most, and nearly full only when there are no more numbers.
-    limit_ = mask == UINT32_MAX ? UINT32_MAX - 1 : mask / 8 * 5;
+    // Eleven sixteenths full at most, and nearly full only when there are no more numbers.
+    limit_ = mask == UINT32_MAX ? UINT32_MAX - 1 : mask / 16 * 11;
   }
   Table& present() const { return *table_.load(std::memory_order_relaxed); }
   void publish() { table_.store(tables_.back().get(), std::memory_order_release); }
   void grow() {
     const Table* old = table_.load(std::memory_order_relaxed);
     install(old->mask < kLargeMask ? old->mask * 4 + 3 : old->mask * 2 + 1);
-    ++growths_;
     used_ = 0;
     for (std::size_t at = 0; at <= old->mask; ++at) {
       const std::uint64_t slot = old->slots[at].load(std::memory_order_relaxed);
@@ -139,7 +159,6 @@ class SlotTable {
   std::atomic<Table*> table_ = nullptr;
   std::uint32_t used_ = 0;
   std::uint32_t limit_ = 0;
-  std::uint32_t growths_ = 0;
   std::vector<std::unique_ptr<Table>> tables_;
 };
 

@@ -3,7 +3,8 @@
 // it is large.
 //
 // One thread may append while others read elements whose index was published to them. Elements
-// start as zero bytes, and untouched pages cost no memory, so a chunk may be generous.
+// start as zero bytes, or, where whoever reserves one writes all of it, as whatever the memory
+// holds.
 #pragma once
 
 #include <atomic>
@@ -17,14 +18,16 @@
 
 namespace sinew::graph {
 
-template <typename T>
+enum class Fill { kZero, kRaw };
+
+template <typename T, Fill fill = Fill::kZero>
 class StableArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
 
  public:
-  // The first chunk takes at most 64 KiB.
+  // The first chunk takes at most 16 KiB.
   static constexpr std::uint32_t kFirstBits =
-      std::bit_width((std::size_t{1} << 16) / sizeof(T)) - 1;
+      std::bit_width((std::size_t{1} << 14) / sizeof(T)) - 1;
   static constexpr std::uint32_t kFirst = std::uint32_t{1} << kFirstBits;
 
   StableArray() = default;
@@ -32,8 +35,8 @@ class StableArray {
   StableArray& operator=(const StableArray&) = delete;
   ~StableArray() {
     for (std::uint32_t number = 0; number < kChunks; ++number) {
-      release_zeroed(chunks_[number].load(std::memory_order_relaxed),
-                     std::size_t{capacity(number)} * sizeof(T));
+      release_pages(chunks_[number].load(std::memory_order_relaxed),
+                    std::size_t{capacity(number)} * sizeof(T));
     }
   }
 
@@ -44,6 +47,11 @@ class StableArray {
   // The element, or null where nothing was ever reserved.
   const T* find(std::uint32_t index) const {
     return chunks_[chunk_of(index)].load(std::memory_order_acquire) ? locate(index) : nullptr;
+  }
+
+  // Asks for the element, which is about to be written. Precondition: it or 0 was reserved.
+  void prefetch(std::uint32_t index) const {
+    if (index != 0) __builtin_prefetch(locate(index), 1);
   }
 
   // Makes the element at `index` exist. Writer only.
@@ -82,7 +90,8 @@ class StableArray {
            (index - (std::uint32_t{1} << (width - 1)));
   }
   void allocate(std::uint32_t number) {
-    void* memory = allocate_zeroed(std::size_t{capacity(number)} * sizeof(T));
+    const std::size_t size = std::size_t{capacity(number)} * sizeof(T);
+    void* memory = fill == Fill::kZero ? allocate_zeroed(size) : allocate_raw(size);
     chunks_[number].store(static_cast<T*>(memory), std::memory_order_release);
   }
 

@@ -125,20 +125,23 @@ const char* Terms::Data::copy(std::string_view text, std::string_view more) {
 }
 
 std::uint32_t Terms::Data::find_text(std::uint32_t hash, TermKind kind, std::string_view text,
-                                     std::uint32_t datatype, std::string_view language) const {
-  const auto found = by_text.find(hash, [&](SlotTable::Slot slot) {
+                                     std::uint32_t datatype, std::string_view language,
+                                     std::uint32_t* at) const {
+  const auto is_it = [&](SlotTable::Slot slot) {
     const TermEntry& entry = entries[slot.number()];
     return entry.kind == kind && entry.link == datatype && entry.size == text.size() &&
            entry.language_size == language.size() &&
            std::string_view(entry.text, entry.size) == text &&
            std::string_view(entry.text + entry.size, entry.language_size) == language;
-  });
+  };
+  const auto found = by_text.find(hash, is_it, at);
   return found.number();
 }
 
 // ---- life ----
 
 Terms::Terms(std::uint32_t limit) : data_(std::make_unique<Data>()) {
+  data_->entries.reserve(0) = {};
   iri(fmt::format("{}string", kXsd));
   iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#langString");
   iri(fmt::format("{}boolean", kXsd));
@@ -176,7 +179,8 @@ std::unique_ptr<Terms> Terms::clone() const {
 
 Id Terms::iri(std::string_view text) {
   const std::uint32_t hash = hash_text(TermKind::kIri, text);
-  if (const auto found = data_->find_text(hash, TermKind::kIri, text, 0, {})) return {found};
+  std::uint32_t at = 0;
+  if (const auto found = data_->find_text(hash, TermKind::kIri, text, 0, {}, &at)) return {found};
   if (text.starts_with(kDerivedPrefix)) {
     {
       const std::lock_guard lock(data_->demand);
@@ -187,7 +191,7 @@ Id Terms::iri(std::string_view text) {
   const auto size = static_cast<std::uint32_t>(text.size());
   const char* copied = data_->copy(text);
   const std::uint32_t id = data_->add({copied, 0, size, 0, 0, TermKind::kIri, false});
-  data_->by_text.insert(hash, id);
+  data_->by_text.insert(at, hash, id);
   return {id};
 }
 
@@ -195,11 +199,13 @@ Id Terms::blank(std::string_view label) {
   std::string renamed;
   if (looks_fresh(label)) label = renamed = std::string(label) + '_';
   const std::uint32_t hash = hash_text(TermKind::kBlank, label);
-  if (const auto found = data_->find_text(hash, TermKind::kBlank, label, 0, {})) return {found};
+  std::uint32_t at = 0;
+  const auto found = data_->find_text(hash, TermKind::kBlank, label, 0, {}, &at);
+  if (found) return {found};
   const auto size = static_cast<std::uint32_t>(label.size());
   const char* copied = data_->copy(label);
   const std::uint32_t id = data_->add({copied, 0, size, 0, 0, TermKind::kBlank, false});
-  data_->by_text.insert(hash, id);
+  data_->by_text.insert(at, hash, id);
   return {id};
 }
 
@@ -213,14 +219,15 @@ Id Terms::literal(std::string_view lexical, std::string_view datatype, std::stri
     type = iri(datatype);
   }
   const std::uint32_t hash = hash_text(TermKind::kLiteral, lexical, type.value, language);
-  const auto found = data_->find_text(hash, TermKind::kLiteral, lexical, type.value, language);
+  std::uint32_t at = 0;
+  const auto found = data_->find_text(hash, TermKind::kLiteral, lexical, type.value, language, &at);
   if (found) return {found};
   const char* copied = data_->copy(lexical, language);
   const auto number = parse_number(lexical, numeric_type_of(type.value));
   const std::uint32_t id = data_->add(
       {copied, number.value_or(0), static_cast<std::uint32_t>(lexical.size()), type.value,
        static_cast<std::uint16_t>(language.size()), TermKind::kLiteral, number.has_value()});
-  data_->by_text.insert(hash, id);
+  data_->by_text.insert(at, hash, id);
   return {id};
 }
 
@@ -252,14 +259,16 @@ Id Terms::derived(Id role, std::initializer_list<Id> parts) {
 Id Terms::derived(Id role, std::span<const Id> parts) {
   Data& data = *data_;
   const std::uint32_t hash = hash_parts(role.value, parts);
-  const SlotTable::Slot known = data.by_parts.find(hash, [&](SlotTable::Slot slot) {
+  const auto is_it = [&](SlotTable::Slot slot) {
     const DerivedEntry& entry = data.derived[slot.number() - 1];
     if (entry.role != role.value || entry.count != parts.size()) return false;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (entry.parts[i] != parts[i].value) return false;
     }
     return true;
-  });
+  };
+  std::uint32_t at = 0;
+  const SlotTable::Slot known = data.by_parts.find(hash, is_it, &at);
   if (const std::uint32_t found = known.number()) {
     const std::uint32_t id = data.derived_ids[found - 1];
     const auto same = data.same_as_text.find(id);
@@ -274,7 +283,7 @@ Id Terms::derived(Id role, std::span<const Id> parts) {
   const std::uint32_t id = data.add({nullptr, 0, 0, number, 0, TermKind::kDerived, false});
   data.derived_ids.reserve(number) = id;
   data.derived_size = number + 1;
-  data.by_parts.insert(hash, number + 1);
+  data.by_parts.insert(at, hash, number + 1);
   if (data.prefixed_iris.load() > 0) {
     const std::string_view name = text(Id{id});
     const auto same = data.find_text(hash_text(TermKind::kIri, name), TermKind::kIri, name, 0, {});

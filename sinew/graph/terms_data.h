@@ -38,11 +38,11 @@ struct DerivedEntry {
 struct Terms::Data {
   std::uint32_t limit = kMaxTerms;
   std::atomic<std::uint32_t> size = 0;
-  StableArray<TermEntry> entries;  // by id; 0 stays empty
-  SlotTable by_text;               // IRIs, labelled blank nodes, literals
+  StableArray<TermEntry, Fill::kRaw> entries;  // by id; 0 is empty
+  SlotTable by_text;                           // IRIs, labelled blank nodes, literals
 
   std::uint32_t derived_size = 0;
-  StableArray<DerivedEntry> derived;
+  StableArray<DerivedEntry, Fill::kRaw> derived;
   SlotTable by_parts;
   // Derived nodes whose IRI had arrived as text before: the node that has that text.
   std::unordered_map<std::uint32_t, std::uint32_t> same_as_text;
@@ -56,12 +56,13 @@ struct Terms::Data {
   std::uint32_t derived_named = 0;               // how many of `derived` are in derived_by_text
   std::atomic<std::uint32_t> prefixed_iris = 0;  // plain IRIs that start like a derived one
   std::atomic<std::uint32_t> derived_published = 0;
-  StableArray<std::uint32_t> derived_ids;  // the term of each derived entry
+  StableArray<std::uint32_t, Fill::kRaw> derived_ids;  // the term of each derived entry
 
   std::uint32_t add(const TermEntry& entry);
   const char* copy(std::string_view text, std::string_view more = {});
   std::uint32_t find_text(std::uint32_t hash, TermKind kind, std::string_view text,
-                          std::uint32_t datatype, std::string_view language) const;
+                          std::uint32_t datatype, std::string_view language,
+                          std::uint32_t* at = nullptr) const;
   // With `demand` held.
   std::string_view make_text(std::uint32_t id);
   std::string name_of(const DerivedEntry& entry) const;

@@ -138,10 +138,13 @@ bool View::visit_triples(Id subject, Id predicate, Id object, Visit&& visit) con
   }
   List list;
   const Records::Run run = in.run(subject.value, predicate.value, object.value, at_version, list);
+  const bool between = subject && object;
   for (std::uint32_t at = run.head; at != 0;) {
     const Triple& triple = in.triples[at];
     if (load(triple.added) > at_version) break;
-    if (Records::still_there(triple, at_version) && !visit(triple)) return false;
+    const bool matches =
+        !between || (triple.subject == subject.value && triple.object == object.value);
+    if (matches && Records::still_there(triple, at_version) && !visit(triple)) return false;
     at = load(triple.next[list]);
   }
   return true;

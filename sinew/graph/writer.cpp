@@ -15,22 +15,26 @@ std::uint32_t& Writer::node_posting(List list, std::uint32_t term) {
   return list == kListS ? node.as_subject : list == kListP ? node.as_predicate : node.as_object;
 }
 
-std::uint32_t Writer::single_posting(List list, std::uint32_t term) {
+// Postings are never given back, and a reader comes to one only after it was published.
+std::uint32_t Writer::new_posting(std::uint32_t first, std::uint32_t second) {
+  Posting& made = records.postings.reserve(++records.posting_count);
+  made = Posting{};
+  made.first = first;
+  made.second = second;
+  made.patience = kFirstPatience;
+  return records.posting_count;
+}
+
+Posting& Writer::single_posting(List list, std::uint32_t term) {
   std::uint32_t& number = node_posting(list, term);
-  if (number == 0) {
-    records.postings.reserve(++records.posting_count).patience = kFirstPatience;
-    store(number, records.posting_count);
-  }
-  return number;
+  if (number == 0) store(number, new_posting());
+  return records.postings[number];
 }
 
 std::uint32_t Writer::graph_number(std::uint32_t name) {
   Node& node = records.nodes.reserve(name);
   if (node.as_graph == 0) {
-    records.postings.reserve(++records.posting_count).patience = kFirstPatience;
-    Graph& graph = records.graphs.reserve(records.graph_count + 1);
-    graph.name = name;
-    graph.members = records.posting_count;
+    records.graphs.reserve(records.graph_count + 1) = {name, new_posting(), 0, 0};
     store(node.as_graph, records.graph_count + 1);
     store(records.graph_count, records.graph_count + 1);
   }
@@ -52,34 +56,51 @@ void Writer::append(Posting& posting, List list, std::uint32_t triple, std::uint
   store(posting.count, posting.count + 1);
 }
 
-// Returns the slot in the table of pairs.
-std::uint32_t Writer::append_pair(List list, std::uint32_t triple, Version version,
-                                  std::uint32_t& tail_before) {
+Writer::PairPlace Writer::place(List list, const PairKey& key, Version version) const {
+  PairPlace place{0, SlotTable::Slot()};
+  place.found = records.find_pair(list, key.pair, key.hash, version, &place.at);
+  return place;
+}
+
+bool Writer::append_pair(List list, const PairKey& key, const PairPlace& place,
+                         std::uint32_t triple, std::uint32_t& tail_before) {
   SlotTable& table = records.pairs[list];
-  const Records::Pair pair = Records::pair_of(records.triples[triple], list);
-  const std::uint32_t predicate = records.triples[triple].predicate;
-  std::uint32_t at = 0;
-  const SlotTable::Slot found = records.find_pair(list, pair, version, &at);
-  if (!found) {
-    count_pair(list, predicate, 1);
-    return table.insert(hash_pair(pair.first, pair.second), triple);
+  if (!place.found) {
+    table.insert(place.at, key.hash, triple);
+    return true;
   }
-  std::uint32_t number = found.number();
-  if (!found.marked()) {
-    number = ++records.posting_count;
-    Posting& made = records.postings.reserve(number);
-    made.first = pair.first;
-    made.second = pair.second;
-    made.patience = kFirstPatience;
-    made.tail = found.number();
+  std::uint32_t number = place.found.number();
+  if (!place.found.marked()) {
+    const std::uint32_t only = number;
+    number = new_posting(key.pair.first, key.pair.second);
+    Posting& made = records.postings[number];
+    made.tail = only;
     store(made.count, 1);
-    store(made.head, found.number());
-    table.replace(at, number, true);
+    store(made.head, only);
+    table.replace(place.at, number, true);
   }
   Posting& posting = records.postings[number];
-  if (posting.count == 0) count_pair(list, predicate, 1);
   append(posting, list, triple, tail_before);
-  return at;
+  return posting.count == 1;
+}
+
+void Writer::append_between(std::uint32_t triple, Version version) {
+  const PairKey pair = key(Records::pair_of(records.triples[triple], kListOS));
+  std::uint32_t tail_before = 0;
+  append_pair(kListOS, pair, place(kListOS, pair, version), triple, tail_before);
+}
+
+// A triple is in a list OS exactly if its subject and its object are crowded. It stays crowded:
+// when it became so by what is now taken back, a reader may have seen it already.
+void Writer::make_crowded(Posting& posting, List list, Version version) {
+  for (std::uint32_t at = posting.head; at != 0;) {
+    const Triple& triple = records.triples[at];
+    const Node& node = records.nodes[list == kListS ? triple.object : triple.subject];
+    const std::uint32_t other = list == kListS ? node.as_object : node.as_subject;
+    if (Records::crowded(records.postings[other])) append_between(at, version);
+    at = triple.next[list];
+  }
+  store(posting.first, 1);
 }
 
 void Writer::prepare() {
@@ -105,8 +126,22 @@ bool Writer::add(const Quad& quad, Version version) {
     throw Error(std::move(problem));
   }
   prepare();
+  // What will be needed from far away is asked for first. A term of a triple that is there already
+  // has its lists, so making them here is not in vain.
+  const PairKey of_subject = key({subject, predicate}), of_object = key({predicate, object});
+  records.pairs[kListSP].prefetch(of_subject.hash);
+  records.pairs[kListPO].prefetch(of_object.hash);
+  Posting& to = single_posting(kListO, object);
+  Posting& from = single_posting(kListS, subject);
+  Posting& all = single_posting(kListP, predicate);
+  records.triples.prefetch(to.tail);
+  records.triples.prefetch(all.tail);
+
   Change change{};
-  const std::uint32_t present = records.find(subject, predicate, object, version);
+  const PairPlace at_subject = place(kListSP, of_subject, version);
+  const std::uint32_t present = at_subject.found ? records.find(subject, predicate, object, version,
+                                                                records.run_of(at_subject.found))
+                                                 : 0;
   if (present) {
     if (find_membership(present, quad.graph.value)) return false;
     change.kind = Change::kAddMembership;
@@ -131,13 +166,19 @@ bool Writer::add(const Quad& quad, Version version) {
   for (std::uint32_t& next : triple.next) store(next, 0);
   change.membership = append_membership(number, quad.graph.value, version, change);
 
-  append(records.postings[single_posting(kListS, subject)], kListS, number, change.tails[kListS]);
-  append(records.postings[single_posting(kListP, predicate)], kListP, number, change.tails[kListP]);
-  append(records.postings[single_posting(kListO, object)], kListO, number, change.tails[kListO]);
-  for (const List list : {kListSP, kListPO, kListOS}) {
-    change.pairs[list] = append_pair(list, number, version, change.tails[list]);
+  if (from.count >= kUncrowded && !Records::crowded(from)) make_crowded(from, kListS, version);
+  if (to.count >= kUncrowded && !Records::crowded(to)) make_crowded(to, kListO, version);
+  append(from, kListS, number, change.tails[kListS]);
+  append(all, kListP, number, change.tails[kListP]);
+  append(to, kListO, number, change.tails[kListO]);
+  if (append_pair(kListSP, of_subject, at_subject, number, change.tails[kListSP])) {
+    store(all.distinct_subjects, all.distinct_subjects + 1);
   }
-  change.growths = growths();
+  const PairPlace at_object = place(kListPO, of_object, version);
+  if (append_pair(kListPO, of_object, at_object, number, change.tails[kListPO])) {
+    store(all.distinct_objects, all.distinct_objects + 1);
+  }
+  if (Records::crowded(from) && Records::crowded(to)) append_between(number, version);
   store(records.triple_count, number);
   ++records.live_count;
   note(change);

@@ -11,15 +11,13 @@
 
 namespace sinew::graph {
 
-// What one change did, for taking it back: 64 bytes. Additions remember where they were appended.
+// What one change did, for taking it back: 48 bytes. Additions remember where they were appended.
 struct Change {
   enum Kind : std::uint32_t { kAddTriple, kAddMembership, kRemove, kAddMark, kRemoveMark };
   Kind kind;
   std::uint32_t record;         // the triple, or the mark
   std::uint32_t graph_tail;     // the graph's last membership before
-  std::uint32_t pairs[3];       // kAddTriple: the slots of SP, PO, OS in their tables
-  std::uint32_t growths;        // kAddTriple: of these tables, so far
-  std::uint32_t tails[kLists];  // kAddTriple: each list's last triple before;
+  std::uint32_t tails[kLists];  // kAddTriple: each list's last triple before, but OS;
                                 // kAddMembership: [0] the triple's last membership before
   std::uint32_t graph;          // kAddMembership: Triple::graph before; marks: the graph's number
   std::uint32_t membership;     // the one that was added or removed
@@ -56,16 +54,28 @@ class Writer {
   // A longer log's memory is given back after its transaction.
   static constexpr std::uint32_t kLargeLog = 1 << 16;
 
-  std::uint32_t append_pair(List list, std::uint32_t triple, Version version,
-                            std::uint32_t& tail_before);
+  struct PairKey {
+    Records::Pair pair;
+    std::uint32_t hash;
+  };
+  static PairKey key(Records::Pair pair) { return {pair, hash_pair(pair.first, pair.second)}; }
+  // Where a pair is, or would be, in its table.
+  struct PairPlace {
+    std::uint32_t at;
+    SlotTable::Slot found;
+  };
+  PairPlace place(List list, const PairKey& key, Version version) const;
+  // Whether the pair's list was empty before.
+  bool append_pair(List list, const PairKey& key, const PairPlace& place, std::uint32_t triple,
+                   std::uint32_t& tail_before);
+  void append_between(std::uint32_t triple, Version version);
+  void make_crowded(Posting& posting, List list, Version version);
   void append(Posting& posting, List list, std::uint32_t triple, std::uint32_t& tail_before);
-  void undo_pair(List list, const Change& change, bool grew);
+  void undo_pair(List list, std::uint32_t triple, std::uint32_t tail_before);
   void undo_append(Posting& posting, List list, std::uint32_t tail_before);
-  std::uint32_t growths() const {
-    return records.pairs[0].growths() + records.pairs[1].growths() + records.pairs[2].growths();
-  }
   std::uint32_t& node_posting(List list, std::uint32_t term);
-  std::uint32_t single_posting(List list, std::uint32_t term);
+  std::uint32_t new_posting(std::uint32_t first = 0, std::uint32_t second = 0);
+  Posting& single_posting(List list, std::uint32_t term);
   std::uint32_t graph_number(std::uint32_t name);
   std::uint32_t find_membership(std::uint32_t triple, std::uint32_t graph) const;
   std::uint32_t append_membership(std::uint32_t triple, std::uint32_t graph, Version version,
@@ -84,7 +94,8 @@ class Writer {
 
   std::uint32_t limit_;
   std::uint32_t dead_records_ = 0;
-  std::unique_ptr<StableArray<Change>> log_ = std::make_unique<StableArray<Change>>();
+  std::unique_ptr<StableArray<Change, Fill::kRaw>> log_ =
+      std::make_unique<StableArray<Change, Fill::kRaw>>();
   std::uint32_t change_count_ = 0;
 };
 

@@ -21,16 +21,16 @@ void Writer::finish(Version oldest) {
     sweep(records.postings[node_posting(kListP, triple.predicate)], kListP, oldest);
     sweep(records.postings[node_posting(kListO, triple.object)], kListO, oldest);
   }
-  if (change_count_ > kLargeLog) log_ = std::make_unique<StableArray<Change>>();
+  if (change_count_ > kLargeLog) log_ = std::make_unique<StableArray<Change, Fill::kRaw>>();
   change_count_ = 0;
 }
 
 namespace {
 
 // Unlinks what no reader needs. Returns the number of records that were removed but must stay.
-template <typename Record, typename Next>
-std::uint32_t unlink(StableArray<Record>& array, std::uint32_t& head, std::uint32_t& tail,
-                     std::uint32_t& count, Version oldest, Next&& next) {
+template <typename Array, typename Next>
+std::uint32_t unlink(Array& array, std::uint32_t& head, std::uint32_t& tail, std::uint32_t& count,
+                     Version oldest, Next&& next) {
   std::uint32_t kept = 0, last = 0, left = 0;
   for (std::uint32_t at = head; at != 0;) {
     const std::uint32_t following = next(array[at]);

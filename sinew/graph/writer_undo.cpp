@@ -11,8 +11,12 @@ void Writer::undo(const Change& change) {
   switch (change.kind) {
     case Change::kAddTriple: {
       Triple& triple = records.triples[change.record];
-      const bool grew = growths() != change.growths;
-      for (const List list : {kListOS, kListPO, kListSP}) undo_pair(list, change, grew);
+      const bool between =
+          Records::crowded(records.postings[records.nodes[triple.subject].as_subject]) &&
+          Records::crowded(records.postings[records.nodes[triple.object].as_object]);
+      if (between) undo_pair(kListOS, change.record, 0);
+      undo_pair(kListPO, change.record, change.tails[kListPO]);
+      undo_pair(kListSP, change.record, change.tails[kListSP]);
       // From here on, no reader takes it for a triple.
       store(triple.added, kNever);
       undo_append(records.postings[records.nodes[triple.object].as_object], kListO,
@@ -57,18 +61,22 @@ void Writer::undo_append(Posting& posting, List list, std::uint32_t tail) {
   store(posting.count, posting.count - 1);
 }
 
-void Writer::undo_pair(List list, const Change& change, bool grew) {
-  const Triple& triple = records.triples[change.record];
-  SlotTable& table = records.pairs[list];
-  std::uint32_t at = change.pairs[list];
-  if (grew) records.find_pair(list, Records::pair_of(triple, list), triple.added, &at);
-  const SlotTable::Slot slot = table.at(at);
+void Writer::undo_pair(List list, std::uint32_t number, std::uint32_t tail) {
+  const Triple& triple = records.triples[number];
+  std::uint32_t at = 0;
+  const SlotTable::Slot slot =
+      records.find_pair(list, Records::pair_of(triple, list), triple.added, &at);
   if (slot.marked()) {
     Posting& posting = records.postings[slot.number()];
-    undo_append(posting, list, change.tails[list]);
+    // In a list OS, a triple may be since its subject or object became crowded.
+    if (list == kListOS && posting.head != number) {
+      tail = posting.head;
+      while (records.triples[tail].next[list] != number) tail = records.triples[tail].next[list];
+    }
+    undo_append(posting, list, tail);
     if (posting.count > 0) return;
   } else {
-    table.erase(at, grew);
+    records.pairs[list].erase(at);
   }
   count_pair(list, triple.predicate, -1);
 }
