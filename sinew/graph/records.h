@@ -124,6 +124,7 @@ struct Records {
         return {triple.object, triple.subject};
     }
   }
+  static Pair pair_of(const Posting& posting) { return {posting.first, posting.second}; }
   // A marked number is a Posting's, any other a triple's. A triple that is not visible yet may be
   // changing, and may be passed over: whatever is in its list was added later.
   SlotTable::Slot find_pair(List list, Pair pair, Version version,
@@ -137,7 +138,7 @@ struct Records {
         [&](SlotTable::Slot slot) {
           if (slot.marked()) {
             const Posting& posting = postings[slot.number()];
-            return pair == Pair{posting.first, posting.second};
+            return pair == pair_of(posting);
           }
           const Triple& triple = triples[slot.number()];
           return load(triple.added) <= version && pair == pair_of(triple, list);

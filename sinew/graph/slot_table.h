@@ -76,6 +76,10 @@ class SlotTable {
     }
     free.store(slot, std::memory_order_release);
   }
+  // Precondition: `slot` was set by `find`, perhaps before the table grew.
+  Slot at(std::uint32_t slot) const {
+    return Slot(present().slots[slot].load(std::memory_order_relaxed));
+  }
   // Gives the key in this slot another number.
   void replace(std::uint32_t slot, std::uint32_t number, bool marked) {
     std::atomic<std::uint64_t>& word = present().slots[slot];
@@ -112,7 +116,7 @@ class SlotTable {
 
  private:
   static constexpr std::uint32_t kFirstMask = 255;
-  static constexpr std::uint32_t kLargeMask = 0x3FFF;  // below it, tables grow by four
+  static constexpr std::uint32_t kLargeMask = 0xFFFF;  // up to it, tables grow by four
   struct Table {
     explicit Table(std::uint32_t last)
         : mask(last), slots(static_cast<std::atomic<std::uint64_t>*>(allocate_zeroed(bytes()))) {}
@@ -145,12 +149,13 @@ class SlotTable {
   void publish() { table_.store(tables_.back().get(), std::memory_order_release); }
   void grow() {
     const Table* old = table_.load(std::memory_order_relaxed);
-    install(old->mask < kLargeMask ? old->mask * 4 + 3 : old->mask * 2 + 1);
+    install(old->mask <= kLargeMask ? old->mask * 4 + 3 : old->mask * 2 + 1);
+    Table& made = *tables_.back();
     used_ = 0;
     for (std::size_t at = 0; at <= old->mask; ++at) {
       const std::uint64_t slot = old->slots[at].load(std::memory_order_relaxed);
       if (static_cast<std::uint32_t>(slot) == 0) continue;
-      place(*tables_.back(), slot);
+      place(made, slot);
       ++used_;
     }
     publish();

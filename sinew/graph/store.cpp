@@ -163,16 +163,36 @@ StoreData& Transaction::data() const {
   return *data_;
 }
 
+namespace {
+
+bool has_terms_of(std::uint32_t known, const Quad& quad) {
+  const auto is_term = [known](Id id) { return id.value - 1 < known; };
+  return is_term(quad.subject) && is_term(quad.predicate) && is_term(quad.object) &&
+         quad.graph.value <= known;
+}
+
+[[noreturn]] void refuse_terms() {
+  throw misuse("an id of the quad is no term of this store",
+               "use ids of this store's own dictionary; only the graph may be 0");
+}
+
+}  // namespace
+
 bool Transaction::add(const Quad& quad) {
   StoreData& in = data();
-  const auto known = static_cast<std::uint32_t>(in.terms->size());
-  const auto is_term = [known](Id id) { return id.value - 1 < known; };
-  if (!is_term(quad.subject) || !is_term(quad.predicate) || !is_term(quad.object) ||
-      quad.graph.value > known) {
-    throw misuse("an id of the quad is no term of this store",
-                 "use ids of this store's own dictionary; only the graph may be 0");
-  }
+  if (!has_terms_of(static_cast<std::uint32_t>(in.terms->size()), quad)) refuse_terms();
   return in.core->writer.add(quad, version_);
+}
+
+std::size_t Transaction::add(std::span<const Quad> quads) {
+  StoreData& in = data();
+  const auto known = static_cast<std::uint32_t>(in.terms->size());
+  const auto culprit = std::find_if_not(
+      quads.begin(), quads.end(), [known](const Quad& quad) { return has_terms_of(known, quad); });
+  const std::size_t good = static_cast<std::size_t>(culprit - quads.begin());
+  const std::size_t count = in.core->writer.add(quads.first(good), version_);
+  if (good < quads.size()) refuse_terms();
+  return count;
 }
 
 bool Transaction::remove(const Quad& quad) { return data().core->writer.remove(quad, version_); }

@@ -26,6 +26,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "sinew/graph/terms.h"
 #include "sinew/graph/view.h"
@@ -70,6 +71,9 @@ class Transaction {
   // False when it was there already. Throws Error when the store is full, or when one of the ids is
   // no term of this store; the transaction is then as it was before.
   bool add(const Quad& quad);
+  // The same for each, and faster where they are many; returns how many were new. When it throws,
+  // those before the culprit have been added.
+  std::size_t add(std::span<const Quad> quads);
   bool remove(const Quad& quad);  // false when it was not there
   void clear(Id graph);           // every triple of this graph
   void create_graph(Id graph);    // exists from now on, even while it is empty

@@ -10,10 +10,13 @@ Writer::Writer(std::uint32_t limit) : limit_(limit) {}
 
 // ---- where things are appended ----
 
-std::uint32_t& Writer::node_posting(List list, std::uint32_t term) {
-  Node& node = records.nodes.reserve(term);
+namespace {
+
+std::uint32_t& posting_number(Node& node, List list) {
   return list == kListS ? node.as_subject : list == kListP ? node.as_predicate : node.as_object;
 }
+
+}  // namespace
 
 // Postings are never given back, and a reader comes to one only after it was published.
 std::uint32_t Writer::new_posting(std::uint32_t first, std::uint32_t second) {
@@ -25,13 +28,13 @@ std::uint32_t Writer::new_posting(std::uint32_t first, std::uint32_t second) {
   return records.posting_count;
 }
 
-Posting& Writer::single_posting(List list, std::uint32_t term) {
-  std::uint32_t& number = node_posting(list, term);
+inline Posting& Writer::single_posting(List list, std::uint32_t term) {
+  std::uint32_t& number = posting_number(records.nodes.reserve(term), list);
   if (number == 0) store(number, new_posting());
   return records.postings[number];
 }
 
-std::uint32_t Writer::graph_number(std::uint32_t name) {
+inline std::uint32_t Writer::graph_number(std::uint32_t name) {
   Node& node = records.nodes.reserve(name);
   if (node.as_graph == 0) {
     records.graphs.reserve(records.graph_count + 1) = {name, new_posting(), 0, 0};
@@ -44,19 +47,20 @@ std::uint32_t Writer::graph_number(std::uint32_t name) {
 // A predicate's distinct subjects or objects: its SP or PO lists that are not empty.
 void Writer::count_pair(List list, std::uint32_t predicate, int by) {
   if (list == kListOS) return;
-  Posting& all = records.postings[node_posting(kListP, predicate)];
+  Posting& all = single_posting(kListP, predicate);
   std::uint32_t& counter = list == kListSP ? all.distinct_subjects : all.distinct_objects;
   store(counter, counter + static_cast<std::uint32_t>(by));
 }
 
-void Writer::append(Posting& posting, List list, std::uint32_t triple, std::uint32_t& tail_before) {
+inline void Writer::append(Posting& posting, List list, std::uint32_t triple,
+                           std::uint32_t& tail_before) {
   tail_before = posting.tail;
   store(posting.tail == 0 ? posting.head : records.triples[posting.tail].next[list], triple);
   posting.tail = triple;
   store(posting.count, posting.count + 1);
 }
 
-Writer::PairPlace Writer::place(List list, const PairKey& key, Version version) const {
+inline Writer::PairPlace Writer::place(List list, const PairKey& key, Version version) const {
   PairPlace place{0, SlotTable::Slot()};
   place.found = records.find_pair(list, key.pair, key.hash, version, &place.at);
   return place;
@@ -103,13 +107,23 @@ void Writer::make_crowded(Posting& posting, List list, Version version) {
   store(posting.first, 1);
 }
 
-void Writer::prepare() {
-  if (change_count_ == UINT32_MAX) {
-    Problem problem;
-    problem.what = fmt::format("the transaction has made {} changes", change_count_);
-    problem.remedy = "commit now and then";
-    throw Error(std::move(problem));
-  }
+void Writer::refuse_long() const {
+  Problem problem;
+  problem.what = fmt::format("the transaction has made {} changes", change_count_);
+  problem.remedy = "commit now and then";
+  throw Error(std::move(problem));
+}
+
+void Writer::refuse_full() const {
+  Problem problem;
+  problem.what = fmt::format("the store is full: it holds {} triples in {} graph memberships",
+                             records.triple_count, records.membership_count);
+  problem.remedy = "raise its limit, or remove what is not needed and begin a new transaction";
+  throw Error(std::move(problem));
+}
+
+inline void Writer::prepare() {
+  if (change_count_ == UINT32_MAX) refuse_long();
   log_->reserve(change_count_);
 }
 
@@ -118,13 +132,7 @@ void Writer::prepare() {
 bool Writer::add(const Quad& quad, Version version) {
   const std::uint32_t subject = quad.subject.value, predicate = quad.predicate.value;
   const std::uint32_t object = quad.object.value;
-  if (records.triple_count >= limit_ || records.membership_count >= limit_) {
-    Problem problem;
-    problem.what = fmt::format("the store is full: it holds {} triples in {} graph memberships",
-                               records.triple_count, records.membership_count);
-    problem.remedy = "raise its limit, or remove what is not needed and begin a new transaction";
-    throw Error(std::move(problem));
-  }
+  if (records.triple_count >= limit_ || records.membership_count >= limit_) refuse_full();
   prepare();
   // What will be needed from far away is asked for first. A term of a triple that is there already
   // has its lists, so making them here is not in vain.
@@ -178,11 +186,46 @@ bool Writer::add(const Quad& quad, Version version) {
   if (append_pair(kListPO, of_object, at_object, number, change.tails[kListPO])) {
     store(all.distinct_objects, all.distinct_objects + 1);
   }
+  change.pairs[kListSP] = at_subject.at;
+  change.pairs[kListPO] = at_object.at;
   if (Records::crowded(from) && Records::crowded(to)) append_between(number, version);
   store(records.triple_count, number);
   ++records.live_count;
   note(change);
   return true;
+}
+
+inline void Writer::expect_pairs(const Quad& quad) {
+  records.pairs[kListSP].prefetch(hash_pair(quad.subject.value, quad.predicate.value));
+  records.pairs[kListPO].prefetch(hash_pair(quad.predicate.value, quad.object.value));
+  __builtin_prefetch(&records.nodes.reserve(quad.object.value), 1);
+}
+
+inline void Writer::expect_list(const Quad& quad) const {
+  records.postings.prefetch(records.nodes[quad.object.value].as_object);
+}
+
+inline void Writer::expect_tail(const Quad& quad) const {
+  const std::uint32_t to = records.nodes[quad.object.value].as_object;
+  if (to != 0) records.triples.prefetch(records.postings[to].tail);
+}
+
+std::size_t Writer::add(std::span<const Quad> quads, Version version) {
+  // Steps ahead, some 30 ns each: memory out of the caches answers in 50 to 100 ns. What all quads
+  // of one subject share is near anyway; objects are what jumps about.
+  constexpr std::size_t kPairs = 12, kList = 8, kTail = 4;
+  constexpr std::uint32_t kOutOfCaches = 1 << 14;  // triples
+  std::size_t count = 0, at = 0;
+  for (; records.triple_count < kOutOfCaches && at < quads.size(); ++at) {
+    count += add(quads[at], version);
+  }
+  for (const std::size_t begin = at; at < quads.size(); ++at) {
+    if (at + kPairs < quads.size()) expect_pairs(quads[at + kPairs]);
+    if (at >= begin + kPairs - kList && at + kList < quads.size()) expect_list(quads[at + kList]);
+    if (at >= begin + kPairs - kTail && at + kTail < quads.size()) expect_tail(quads[at + kTail]);
+    count += add(quads[at], version);
+  }
+  return count;
 }
 
 std::uint32_t Writer::append_membership(std::uint32_t triple_number, std::uint32_t graph_name,

@@ -5,18 +5,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "sinew/graph/records.h"
 #include "sinew/graph/view.h"
 
 namespace sinew::graph {
 
-// What one change did, for taking it back: 48 bytes. Additions remember where they were appended.
+// What one change did, for taking it back: 56 bytes. Additions remember where they were appended.
 struct Change {
   enum Kind : std::uint32_t { kAddTriple, kAddMembership, kRemove, kAddMark, kRemoveMark };
   Kind kind;
   std::uint32_t record;         // the triple, or the mark
   std::uint32_t graph_tail;     // the graph's last membership before
+  std::uint32_t pairs[2];       // kAddTriple: where SP and PO were in their tables
   std::uint32_t tails[kLists];  // kAddTriple: each list's last triple before, but OS;
                                 // kAddMembership: [0] the triple's last membership before
   std::uint32_t graph;          // kAddMembership: Triple::graph before; marks: the graph's number
@@ -32,6 +34,8 @@ class Writer {
 
   // All changes are made at `version`, which is later than that of every reader.
   bool add(const Quad& quad, Version version);
+  // The same one after the other; returns how many were new.
+  std::size_t add(std::span<const Quad> quads, Version version);
   bool remove(const Quad& quad, Version version);
   void clear(std::uint32_t graph, Version version);
   void create_graph(std::uint32_t graph, Version version);
@@ -71,9 +75,8 @@ class Writer {
   void append_between(std::uint32_t triple, Version version);
   void make_crowded(Posting& posting, List list, Version version);
   void append(Posting& posting, List list, std::uint32_t triple, std::uint32_t& tail_before);
-  void undo_pair(List list, std::uint32_t triple, std::uint32_t tail_before);
+  void undo_pair(List list, std::uint32_t triple, std::uint32_t at, std::uint32_t tail_before);
   void undo_append(Posting& posting, List list, std::uint32_t tail_before);
-  std::uint32_t& node_posting(List list, std::uint32_t term);
   std::uint32_t new_posting(std::uint32_t first = 0, std::uint32_t second = 0);
   Posting& single_posting(List list, std::uint32_t term);
   std::uint32_t graph_number(std::uint32_t name);
@@ -83,9 +86,22 @@ class Writer {
   void remove_membership(std::uint32_t membership, Version version);
   void undo(const Change& change);
   void undo_membership(const Change& change);
+  [[noreturn]] void refuse_full() const;
+  [[noreturn]] void refuse_long() const;
+  // Asks for what adding the quad will need, so that it is there in time: the farther ahead, the
+  // less is known of it.
+  void expect_pairs(const Quad& quad);
+  void expect_list(const Quad& quad) const;
+  void expect_tail(const Quad& quad) const;
   // To be called before a change, so that nothing can fail between it and its note.
   void prepare();
-  void note(const Change& change) { (*log_)[change_count_++] = change; }
+  void note(const Change& change) {
+    (*log_)[change_count_++] = change;
+    if (is_removal(change)) ++removal_count_;
+  }
+  static bool is_removal(const Change& change) {
+    return change.kind == Change::kRemove || change.kind == Change::kRemoveMark;
+  }
   void count_pair(List list, std::uint32_t predicate, int by);
   void sweep_pair(List list, const Triple& triple, Version oldest);
   void sweep(Posting& posting, List list, Version oldest);
@@ -97,6 +113,7 @@ class Writer {
   std::unique_ptr<StableArray<Change, Fill::kRaw>> log_ =
       std::make_unique<StableArray<Change, Fill::kRaw>>();
   std::uint32_t change_count_ = 0;
+  std::uint32_t removal_count_ = 0;  // of these changes
 };
 
 }  // namespace sinew::graph

@@ -4,9 +4,10 @@
 namespace sinew::graph {
 
 void Writer::finish(Version oldest) {
-  for (std::uint32_t at = 0; at < change_count_; ++at) {
+  for (std::uint32_t at = 0; removal_count_ > 0; ++at) {
     const Change& change = (*log_)[at];
-    if (change.kind != Change::kRemove && change.kind != Change::kRemoveMark) continue;
+    if (!is_removal(change)) continue;
+    --removal_count_;
     ++dead_records_;
     if (change.kind == Change::kRemoveMark) continue;
     const std::uint32_t graph = records.memberships[change.membership].graph;
@@ -17,9 +18,9 @@ void Writer::finish(Version oldest) {
       continue;
     }
     for (const List list : {kListSP, kListPO, kListOS}) sweep_pair(list, triple, oldest);
-    sweep(records.postings[node_posting(kListS, triple.subject)], kListS, oldest);
-    sweep(records.postings[node_posting(kListP, triple.predicate)], kListP, oldest);
-    sweep(records.postings[node_posting(kListO, triple.object)], kListO, oldest);
+    sweep(records.postings[records.nodes[triple.subject].as_subject], kListS, oldest);
+    sweep(records.postings[records.nodes[triple.predicate].as_predicate], kListP, oldest);
+    sweep(records.postings[records.nodes[triple.object].as_object], kListO, oldest);
   }
   if (change_count_ > kLargeLog) log_ = std::make_unique<StableArray<Change, Fill::kRaw>>();
   change_count_ = 0;

@@ -14,9 +14,10 @@ void Writer::undo(const Change& change) {
       const bool between =
           Records::crowded(records.postings[records.nodes[triple.subject].as_subject]) &&
           Records::crowded(records.postings[records.nodes[triple.object].as_object]);
-      if (between) undo_pair(kListOS, change.record, 0);
-      undo_pair(kListPO, change.record, change.tails[kListPO]);
-      undo_pair(kListSP, change.record, change.tails[kListSP]);
+      if (between) undo_pair(kListOS, change.record, 0, 0);
+      for (const List list : {kListPO, kListSP}) {
+        undo_pair(list, change.record, change.pairs[list], change.tails[list]);
+      }
       // From here on, no reader takes it for a triple.
       store(triple.added, kNever);
       undo_append(records.postings[records.nodes[triple.object].as_object], kListO,
@@ -39,6 +40,7 @@ void Writer::undo(const Change& change) {
       break;
     }
     case Change::kRemove:
+      --removal_count_;
       store(records.memberships[change.membership].removed, kNever);
       if (change.last) {
         store(records.triples[change.record].removed, kNever);
@@ -50,6 +52,7 @@ void Writer::undo(const Change& change) {
       --records.mark_count;
       break;
     case Change::kRemoveMark:
+      --removal_count_;
       store(records.marks[change.record].removed, kNever);
       break;
   }
@@ -61,11 +64,15 @@ void Writer::undo_append(Posting& posting, List list, std::uint32_t tail) {
   store(posting.count, posting.count - 1);
 }
 
-void Writer::undo_pair(List list, std::uint32_t number, std::uint32_t tail) {
+// `at`: where it was; it is elsewhere if the table grew since.
+void Writer::undo_pair(List list, std::uint32_t number, std::uint32_t at, std::uint32_t tail) {
   const Triple& triple = records.triples[number];
-  std::uint32_t at = 0;
-  const SlotTable::Slot slot =
-      records.find_pair(list, Records::pair_of(triple, list), triple.added, &at);
+  const Records::Pair pair = Records::pair_of(triple, list);
+  SlotTable::Slot slot = records.pairs[list].at(at);
+  if (slot.marked() ? Records::pair_of(records.postings[slot.number()]) != pair
+                    : slot.number() != number) {
+    slot = records.find_pair(list, pair, triple.added, &at);
+  }
   if (slot.marked()) {
     Posting& posting = records.postings[slot.number()];
     // In a list OS, a triple may be since its subject or object became crowded.

@@ -152,7 +152,7 @@ void Symbols::describe_all(const State& state) {
   }
   graph::Transaction transaction = store.begin();
   transaction.create_graph(graph_);
-  for (const graph::Quad& quad : quads) transaction.add(quad);
+  transaction.add(quads);
   transaction.commit();
 }
 
