@@ -1,7 +1,8 @@
 // The queries of bench/sparql/ on 1, 8 and 75 robots side by side (some 1,300, 10,800 and 101,000
 // triples).
 //
-//   bench_sparql                                 prepared queries, anchors rotating; and preparing
+//   bench_sparql                                 prepared queries, anchors rotating; and preparing;
+//                                                all_frames also with its edges packed
 // For bench/sparql/compare, which asks other engines the same:
 //   bench_sparql --dump=FILE --copies=8          the data as N-Triples
 //   bench_sparql --answers=FILE --copies=8       for each query its anchors and the rows found from
@@ -61,12 +62,15 @@ struct Anchored {
   }
 };
 
-void run_query(benchmark::State& state, const QueryFile& file, std::size_t copies) {
+void run_query(benchmark::State& state, const QueryFile& file, std::size_t copies,
+               bool pack = false) {
   graph::Store* store = nullptr;
   robots(copies, &store);
   if (store->view().size() == 0) return state.SkipWithError("no published models here");
   const Anchored query(*store, file);
-  const graph::View view = store->view();
+  graph::Packed packed(store->snapshot());
+  if (pack) query.query->pack(packed);
+  const graph::View view = pack ? packed.view() : store->view();
   std::size_t next = 0;
   std::size_t rows = 0;
   for (auto _ : state) {
@@ -76,6 +80,18 @@ void run_query(benchmark::State& state, const QueryFile& file, std::size_t copie
   state.counters["anchors"] = static_cast<double>(query.anchors.size());
   state.counters["rows"] =
       benchmark::Counter(static_cast<double>(rows), benchmark::Counter::kAvgIterations);
+}
+
+// What packing costs, once for each version that is walked often.
+void pack_for_query(benchmark::State& state, const QueryFile& file) {
+  graph::Store* store = nullptr;
+  robots(8, &store);
+  const Anchored query(*store, file);
+  for (auto _ : state) {
+    graph::Packed packed(store->snapshot());
+    query.query->pack(packed);
+    benchmark::DoNotOptimize(packed.view());
+  }
 }
 
 void prepare_query(benchmark::State& state, const QueryFile& file) {
@@ -188,6 +204,14 @@ int main(int argc, char** argv) {
   }
   benchmark::Initialize(&argc, argv);
   for (const QueryFile& file : bench::query_files()) {
+    if (file.name == "all_frames") {
+      benchmark::RegisterBenchmark("all_frames_packed/8", [file](benchmark::State& state) {
+        run_query(state, file, 8, true);
+      });
+      benchmark::RegisterBenchmark("pack/all_frames", [file](benchmark::State& state) {
+        pack_for_query(state, file);
+      })->Unit(benchmark::kMicrosecond);
+    }
     for (const std::size_t size : {1, 8, 75}) {
       benchmark::RegisterBenchmark(
           (file.name + "/" + std::to_string(size)).c_str(),

@@ -23,6 +23,8 @@ enum class Dataset : std::uint8_t {
   kDefault,  // the unnamed graph alone (SPARQL's default)
 };
 
+class Packed;
+
 // What a store publishes of its present.
 struct Present {
   const Records* records = nullptr;
@@ -82,6 +84,9 @@ class View {
   bool named_graphs(Visit&& visit) const;
   bool has_graph(Id graph) const;
 
+  // The packed edges that come with it (packed.h), or null.
+  const Packed* packed() const { return packed_; }
+
   // The present of a store, as it is at each call.
   explicit View(const Present* present) : present_(present), terms_(present->terms) {}
   // One version. The size of an unfinished transaction is what its records say.
@@ -93,6 +98,8 @@ class View {
   View() = default;
 
  private:
+  friend class Steps;
+  friend class Packed;
   const Records& records() const { return present_ ? *present_->records : *records_; }
   Version version() const { return present_ ? present_->committed : version_; }
   static bool named(const Records& records, const Graph& graph, Version version);
@@ -113,6 +120,62 @@ class View {
   const Terms* terms_ = nullptr;
   Version version_ = 0;
   std::size_t size_ = 0;
+  const Packed* packed_ = nullptr;
+};
+
+// Many steps from node to node over one version, as a walk through the graph takes them: less is
+// looked up anew at each than with View::match. What a visitor writes to the store meanwhile may or
+// may not be seen.
+class Steps {
+ public:
+  explicit Steps(const View& view) : records_(view.records()), version_(view.version()) {}
+
+  // Calls visit(Id) for each, in the order of View::match; stops when it returns false. Returns
+  // false if it was stopped.
+  template <typename Visit>
+  bool objects(Id subject, Id predicate, Visit&& visit) const {
+    return walk<kListSP>(subject, predicate, visit,
+                         [](const Triple& found) { return found.object; });
+  }
+  template <typename Visit>
+  bool subjects(Id predicate, Id object, Visit&& visit) const {
+    return walk<kListPO>(predicate, object, visit,
+                         [](const Triple& found) { return found.subject; });
+  }
+
+ private:
+  template <List list, typename Visit, typename Take>
+  bool walk(Id first, Id second, Visit&& visit, Take&& take) const {
+    // As Records::find_pair, which leads to the triple or the posting already.
+    const Records::Pair pair{first.value, second.value};
+    const Posting* several = nullptr;
+    const Triple* triple = nullptr;
+    const auto is_key = [&](SlotTable::Slot slot) {
+      if (slot.marked()) {
+        several = &records_.postings[slot.number()];
+        return pair == Records::pair_of(*several);
+      }
+      triple = &records_.triples[slot.number()];
+      return load(triple->added) <= version_ && pair == Records::pair_of(*triple, list);
+    };
+    const SlotTable::Slot found =
+        records_.pairs[list].find(hash_pair(first.value, second.value), is_key);
+    if (!found) return true;
+    if (!found.marked()) {
+      return !Records::still_there(*triple, version_) || visit(Id{take(*triple)});
+    }
+    for (std::uint32_t at = load(several->head); at != 0;) {
+      triple = &records_.triples[at];
+      if (load(triple->added) > version_) break;
+      if (Records::still_there(*triple, version_) && !visit(Id{take(*triple)})) return false;
+      at = load(triple->next[list]);
+    }
+    return true;
+  }
+
+  const MatchScope scope_;
+  const Records& records_;
+  const Version version_;
 };
 
 // ---- implementation ----

@@ -20,6 +20,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/graph/packed.h"
 #include "sinew/graph/store.h"
 #include "sinew/rdf/sparql/eval/function_ref.h"
 #include "sinew/rdf/sparql/syntax/limits.h"
@@ -52,6 +53,9 @@ class Prepared {
   bool ask(const graph::View& view, std::initializer_list<graph::Id> parameters) const {
     return ask(view, std::span(parameters.begin(), parameters.size()));
   }
+  // Packs the edges over which it walks in closures of properties, (^a/b)+: where it is run often
+  // on one version, on `packed.view()` such a walk takes half the time.
+  void pack(graph::Packed& packed) const;
   // The operators in their order, with the rows that the planner expects.
   std::string explain(const graph::Terms& terms) const;
 

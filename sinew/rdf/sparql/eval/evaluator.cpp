@@ -21,6 +21,7 @@ Evaluator::Evaluator(std::shared_ptr<const plan::Plan> plan)
       slots_(plan_->initial),
       flags_(plan_->flag_count, 0),
       visited_(plan_->paths.visited_count),
+      chains_(plan_->paths.chain_count),
       blocks_(plan_->blocks.size()),
       tables_(plan_->tables.size()),
       regexes_(plan_->cache_count) {}

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "sinew/graph/store.h"
+#include "sinew/rdf/sparql/eval/chain_memory.h"
 #include "sinew/rdf/sparql/eval/function_ref.h"
 #include "sinew/rdf/sparql/eval/row_set.h"
 #include "sinew/rdf/sparql/eval/text_memory.h"
@@ -90,7 +91,17 @@ class Evaluator {
   bool walk_closure(const plan::PathStep& step, Id from, NodeVisitor visit);
   bool walk_negated(const plan::PathStep& step, Id from, NodeVisitor visit);
   void find_starts(std::uint32_t step, VisitedSet& into);
-  void count_path_step();
+  void count_path_step() { count_path_steps(1); }
+  void count_path_steps(std::size_t count) {
+    tick();
+    path_steps_ += count;
+    if (path_steps_ > limits_.path_steps) fail_long_path();
+  }
+  [[noreturn]] void fail_long_path() const;
+
+  // --- chains.cpp ---
+  bool can_walk_chain(const plan::PathStep& step) const;
+  bool walk_chain(const plan::PathStep& step, Id from, NodeVisitor visit);
 
   // --- blocks.cpp ---
   struct BlockState;
@@ -148,6 +159,7 @@ class Evaluator {
   std::vector<std::uint8_t> flags_;
   std::vector<Id> saved_;  // a stack of slots' terms set aside
   std::vector<VisitedSet> visited_;
+  std::vector<ChainMemory> chains_;
   std::vector<BlockState> blocks_;
   std::vector<TableState> tables_;
   values::TermSpace space_;

@@ -130,9 +130,7 @@ void Evaluator::find_starts(std::uint32_t step_index, VisitedSet& into) {
   });
 }
 
-void Evaluator::count_path_step() {
-  tick();
-  if (++path_steps_ <= limits_.path_steps) return;
+void Evaluator::fail_long_path() const {
   fail(fmt::format("paths reach more than {} nodes", limits_.path_steps),
        "give one end of the path a value, or raise Limits::path_steps");
 }
@@ -158,7 +156,7 @@ bool Evaluator::walk(std::uint32_t step_index, Id from, NodeVisitor visit) {
     case Kind::kZeroOrMore:
     case Kind::kOneOrMore:
     case Kind::kZeroOrOne:
-      return walk_closure(step, from, visit);
+      return can_walk_chain(step) ? walk_chain(step, from, visit) : walk_closure(step, from, visit);
     case Kind::kNegated:
       return walk_negated(step, from, visit);
     case Kind::kInverse:

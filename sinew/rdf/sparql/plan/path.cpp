@@ -22,6 +22,14 @@ void add_middles(std::uint32_t index, PathSteps& into) {
   }
 }
 
+bool is_chain(const PathStep& step, const PathSteps& in) {
+  if (step.kind == Kind::kIri) return true;
+  if (step.kind != Kind::kSequence || step.part_count > kMaxChain) return false;
+  return std::all_of(in.parts.begin() + step.first_part,
+                     in.parts.begin() + step.first_part + step.part_count,
+                     [&](std::uint32_t part) { return in.steps[part].kind == Kind::kIri; });
+}
+
 std::uint32_t compile(const syntax::Path& path, bool inverse, PathSteps& into) {
   if (path.kind == Kind::kInverse) return compile(path.parts[0], !inverse, into);
   std::vector<std::uint32_t> parts;
@@ -52,6 +60,9 @@ std::uint32_t compile(const syntax::Path& path, bool inverse, PathSteps& into) {
       step.first_middle = into.visited_count;
       add_middles(parts[0], into);
       step.middle_count = into.visited_count - step.first_middle;
+      if (path.kind != Kind::kZeroOrOne && is_chain(into.steps[parts[0]], into)) {
+        step.chain = into.chain_count++;
+      }
       break;
     case Kind::kNegated:
       step.forward = inverse ? path.backward : path.forward;
@@ -68,6 +79,13 @@ std::uint32_t compile(const syntax::Path& path, bool inverse, PathSteps& into) {
 }
 
 }  // namespace
+
+std::span<const std::uint32_t> chain_of(const PathStep& closure, const PathSteps& in) {
+  const std::uint32_t* const only = &in.parts[closure.first_part];
+  const PathStep& inner = in.steps[*only];
+  if (inner.kind == Kind::kIri) return {only, 1};
+  return {&in.parts[inner.first_part], inner.part_count};
+}
 
 PathRoots compile_path(const syntax::Path& path, PathSteps& into) {
   PathRoots roots;

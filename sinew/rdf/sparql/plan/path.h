@@ -2,12 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "sinew/graph/packed.h"
 #include "sinew/graph/terms.h"
 #include "sinew/rdf/sparql/syntax/ast.h"
 
 namespace sinew::rdf::sparql::plan {
+
+inline constexpr std::uint32_t kNoChain = UINT32_MAX;
+inline constexpr std::uint32_t kMaxChain = 8;
 
 // One node of a path; the parts of a node lie behind it, in PathSteps::parts.
 struct PathStep {
@@ -26,17 +31,28 @@ struct PathStep {
   // kZeroOrMore, kOneOrMore, kZeroOrOne: the sets of the sequences below it, up to the next such
   // step; they are emptied with its own.
   std::uint32_t first_middle = 0, middle_count = 0;
+  // kZeroOrMore, kOneOrMore over nothing but IRIs in sequence, at most kMaxChain of them: its
+  // number among such steps.
+  std::uint32_t chain = kNoChain;
   // kNegated: what no edge may be, by direction.
   bool walks_forward = false, walks_backward = false;
   std::vector<graph::Id> forward, backward;
 };
+
+inline graph::Direction direction_of(const PathStep& iri) {
+  return iri.inverse ? graph::Direction::kIn : graph::Direction::kOut;
+}
 
 // All paths of one plan.
 struct PathSteps {
   std::vector<PathStep> steps;
   std::vector<std::uint32_t> parts;  // indices into `steps`
   std::uint32_t visited_count = 0;
+  std::uint32_t chain_count = 0;
 };
+
+// The steps, all kIri, of a closure over a chain. Precondition: it is one.
+std::span<const std::uint32_t> chain_of(const PathStep& closure, const PathSteps& in);
 
 // Appends the path, and the same path walked backward; returns the two roots.
 struct PathRoots {
