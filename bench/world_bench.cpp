@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "sinew/blocks/elaborate.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/world.h"
 #ifdef SINEW_HAVE_TF2
@@ -28,7 +29,6 @@ constexpr int kSamples = 100;
 constexpr Duration kPeriod = std::chrono::milliseconds(10);
 constexpr Stamp kFirst = Stamp(std::chrono::seconds(1000));
 constexpr Stamp kLast = kFirst + (kSamples - 1) * kPeriod;
-constexpr Stamp kBetween = kLast - kPeriod / 3;
 
 // A chain of links that turn and move a little from sample to sample.
 class Motion {
@@ -89,6 +89,11 @@ struct Chain {
   int links_;
 };
 
+// Rounds that the writer has finished, in each of which every link has got an entry.
+std::atomic<int> rounds_written = 0;
+// Between the last two entries of every link.
+Stamp between() { return kLast + rounds_written.load() * kPeriod - kPeriod / 3; }
+
 // Writes every link at 1 kHz until it is destroyed.
 template <typename Write>
 class Background {
@@ -97,8 +102,10 @@ class Background {
     if (on_) thread_ = std::thread([this] { run(); });
   }
   ~Background() {
+    if (!thread_.joinable()) return;
     on_ = false;
-    if (thread_.joinable()) thread_.join();
+    thread_.join();
+    rounds_written = 0;
   }
 
  private:
@@ -106,6 +113,7 @@ class Background {
     auto next = std::chrono::steady_clock::now();
     for (int round = 1; on_; ++round) {
       write_(round);
+      rounds_written = round;
       next += std::chrono::milliseconds(1);
       std::this_thread::sleep_until(next);
     }
@@ -150,7 +158,7 @@ void latest(benchmark::State& state, bool writer) {
   ask_ours(state, writer, [](PreparedPose& query) { return query.latest_realtime(kLast); });
 }
 void interpolated(benchmark::State& state, bool writer) {
-  ask_ours(state, writer, [](PreparedPose& query) { return query.at_realtime(kBetween); });
+  ask_ours(state, writer, [](PreparedPose& query) { return query.at_realtime(between()); });
 }
 void latest_common(benchmark::State& state, bool writer) {
   ask_ours(state, writer, [](PreparedPose& query) { return query.latest_common_realtime(); });
@@ -160,6 +168,7 @@ void BM_pose_latest(benchmark::State& state) { latest(state, false); }
 void BM_pose_latest_common(benchmark::State& state) { latest_common(state, false); }
 void BM_pose_interpolated(benchmark::State& state) { interpolated(state, false); }
 void BM_pose_latest_beside_writer(benchmark::State& state) { latest(state, true); }
+void BM_pose_interpolated_beside_writer(benchmark::State& state) { interpolated(state, true); }
 
 #ifdef SINEW_HAVE_TF2
 // ---- tf2 ----
@@ -183,7 +192,8 @@ struct Tf2Chain {
 };
 std::unique_ptr<Tf2Chain> the_tf2_chain;
 
-void ask_tf2(benchmark::State& state, bool writer, std::int64_t stamp_ns) {
+template <typename When>
+void ask_tf2(benchmark::State& state, bool writer, When&& stamp_ns) {
   if (state.thread_index() == 0) {
     the_tf2_chain = std::make_unique<Tf2Chain>(static_cast<int>(state.range(0)));
   }
@@ -192,7 +202,7 @@ void ask_tf2(benchmark::State& state, bool writer, std::int64_t stamp_ns) {
   Tf2Numbers pose;
   for (auto _ : state) {
     if (!the_tf2_chain->buffer.lookup(the_tf2_chain->names.front(), the_tf2_chain->names.back(),
-                                      stamp_ns, &pose)) {
+                                      stamp_ns(), &pose)) {
       state.SkipWithError("no answer");
     }
     benchmark::DoNotOptimize(pose);
@@ -200,9 +210,14 @@ void ask_tf2(benchmark::State& state, bool writer, std::int64_t stamp_ns) {
   state.SetItemsProcessed(state.iterations());
 }
 
-void BM_tf2_pose_latest(benchmark::State& state) { ask_tf2(state, false, 0); }
-void BM_tf2_pose_interpolated(benchmark::State& state) { ask_tf2(state, false, ns_of(kBetween)); }
-void BM_tf2_pose_latest_beside_writer(benchmark::State& state) { ask_tf2(state, true, 0); }
+std::int64_t the_latest() { return 0; }
+std::int64_t between_ns() { return ns_of(between()); }
+void BM_tf2_pose_latest(benchmark::State& state) { ask_tf2(state, false, the_latest); }
+void BM_tf2_pose_interpolated(benchmark::State& state) { ask_tf2(state, false, between_ns); }
+void BM_tf2_pose_latest_beside_writer(benchmark::State& state) { ask_tf2(state, true, the_latest); }
+void BM_tf2_pose_interpolated_beside_writer(benchmark::State& state) {
+  ask_tf2(state, true, between_ns);
+}
 #endif
 
 void depths(benchmark::internal::Benchmark* benchmark) {
@@ -213,16 +228,27 @@ void readers(benchmark::internal::Benchmark* benchmark) {
   benchmark->Threads(1)->Threads(3)->UseRealTime();
 }
 
+void three_readers(benchmark::internal::Benchmark* benchmark) {
+  depths(benchmark);
+  benchmark->Threads(3)->UseRealTime();
+}
+
 BENCHMARK(BM_pose_latest)->Apply(depths);
+BENCHMARK(BM_pose_latest)->Apply(three_readers);
 BENCHMARK(BM_pose_latest_common)->Apply(depths);
 BENCHMARK(BM_pose_interpolated)->Apply(depths);
+BENCHMARK(BM_pose_interpolated)->Apply(three_readers);
 #ifdef SINEW_HAVE_TF2
 BENCHMARK(BM_tf2_pose_latest)->Apply(depths);
+BENCHMARK(BM_tf2_pose_latest)->Apply(three_readers);
 BENCHMARK(BM_tf2_pose_interpolated)->Apply(depths);
+BENCHMARK(BM_tf2_pose_interpolated)->Apply(three_readers);
 #endif
 BENCHMARK(BM_pose_latest_beside_writer)->Apply(readers);
+BENCHMARK(BM_pose_interpolated_beside_writer)->Apply(readers);
 #ifdef SINEW_HAVE_TF2
 BENCHMARK(BM_tf2_pose_latest_beside_writer)->Apply(readers);
+BENCHMARK(BM_tf2_pose_interpolated_beside_writer)->Apply(readers);
 #endif
 
 // ---- writing and cloning ----
@@ -249,6 +275,50 @@ void BM_write(benchmark::State& state) {
   }
 }
 BENCHMARK(BM_write);
+
+// With the same value as a controller has it, a matrix in millimetres: the conversion is part of
+// the write.
+void BM_write_realtime_with_a_block(benchmark::State& state) {
+  static constexpr const char* kController = R"(
+units ht_mm :: qudt, ht_matrix {
+  unitless = {0,0}, unitless = {0,1}, unitless = {0,2}, mm = {0,3}, unitless = {1,0},
+  unitless = {1,1}, unitless = {1,2}, mm = {1,3}, unitless = {2,0}, unitless = {2,1},
+  unitless = {2,2}, mm = {2,3}, unitless = {3,0}, unitless = {3,1}, unitless = {3,2},
+  unitless = {3,3}
+}
+dproto controller_pose :: geometry {
+  semantic  = Pose
+  coord     = homogeneous_transformation
+  algebraic = ht_matrix
+  ddr       = :: c99 { double[16] }
+  dr        = {
+    0 = {0,0}, 1 = {0,1}, 2 = {0,2}, 3 = {0,3}, 4 = {1,0}, 5 = {1,1}, 6 = {1,2}, 7 = {1,3},
+    8 = {2,0}, 9 = {2,1}, 10 = {2,2}, 11 = {2,3}, 12 = const 0, 13 = const 0, 14 = const 0,
+    15 = const 1
+  }
+  units     = ht_mm
+}
+)";
+  World world;
+  const FrameId a = world.add_frame("http://bench/a"), b = world.add_frame("http://bench/b");
+  const RelationId relation =
+      world.add_relation({.name = "http://bench/r", .of = b, .with_respect_to = a});
+  const MeasurementId measured = world.add_measurement(
+      {.name = "http://bench/m",
+       .relation = relation,
+       .blocks = {
+           .library = std::make_shared<const sinew::data::Library>(sinew::blocks::load_library(
+               std::string(kController) + kCanonicalPrototypes, "bench.blocks")),
+           .blocks = {{"http://bench/m/controller", "controller_pose", true}}}});
+  Writer writer = world.claim(measured, {"bench"});
+  const Pose X = Motion(1).at(0, kLast);
+  Stamp stamp = kLast;
+  for (auto _ : state) {
+    stamp += Duration(1);
+    benchmark::DoNotOptimize(writer.write(stamp, X));
+  }
+}
+BENCHMARK(BM_write_realtime_with_a_block);
 
 // A robot's seven joints as one.
 void BM_write_batch_of_seven(benchmark::State& state) {

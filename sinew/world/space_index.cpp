@@ -35,11 +35,12 @@ struct Query {
 // Which of the eight boxes meet the query's, as bits.
 template <typename Block>
 unsigned meeting(const Block& block, const Query& query) {
-  int hit[8];
-  for (int i = 0; i < 8; ++i) {
-    hit[i] = (block.minimum[0][i] <= query.maximum[0]) & (block.maximum[0][i] >= query.minimum[0]) &
-             (block.minimum[1][i] <= query.maximum[1]) & (block.maximum[1][i] >= query.minimum[1]) &
-             (block.minimum[2][i] <= query.maximum[2]) & (block.maximum[2][i] >= query.minimum[2]);
+  int hit[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < 8; ++i) {  // without a branch, so that all are compared at once
+      hit[i] &= static_cast<int>(block.minimum[axis][i] <= query.maximum[axis]);
+      hit[i] &= static_cast<int>(block.maximum[axis][i] >= query.minimum[axis]);
+    }
   }
   unsigned bits = 0;
   for (int i = 0; i < 8; ++i) bits |= static_cast<unsigned>(hit[i]) << i;

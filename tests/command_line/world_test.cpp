@@ -133,6 +133,42 @@ TEST(WorldCommand, CheckTellsAFaultInASceneWithItsPlace) {
                                  "workbench-top: the box's size along y is -1.2"));
 }
 
+// The scene of docs/scenes.md, as it stands there, and what that page says of it.
+TEST(WorldCommand, TheDocumentedSceneAnswersAsDocumented) {
+  const std::string page = read_file(kSource + "/docs/scenes.md");
+  const std::size_t begin = page.find("```json\n") + 8, end = page.find("```", begin);
+  const Folder folder;
+  const std::string lab = (folder / "lab.jsonld").string();
+  write_file(folder / "lab.jsonld", page.substr(begin, end - begin));
+  const auto ask = [&](const std::string& verb, std::vector<std::string> options) {
+    std::vector<std::string> arguments = {"world", verb, lab};
+    for (const char* write : {"seen-red=0.3,0.2,1.75,1,0,0,0@10", "odometry=0.5,1,0,0,0,0,1@9",
+                              "odometry=0.7,1,0,0,0,0,1@10"}) {
+      EXPECT_THAT(page, HasSubstr(write));
+      arguments.insert(arguments.end(), {"--write", write});
+    }
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Result result = run_sinew(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out;
+  };
+  const Result checked = run_sinew({"check", lab});
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("a scene of 6 frames, 5 objects"));
+  EXPECT_THAT(ask("show", {}), HasSubstr("area at at-table, \"right half of the table\""));
+  const std::string pose = ask("pose", {"--of", "at-red", "--wrt", "at-table", "--now", "10.2"});
+  EXPECT_THAT(pose, HasSubstr("position    0.3 -0.2 "));
+  EXPECT_THAT(pose, HasSubstr("holds for another 0.3 s"));
+  EXPECT_EQ(ask("relations", {"--relation", "on"}), "blue-box on table\nred-box on table\n");
+  EXPECT_EQ(ask("within", {"--area", "right half of the table", "--inside"}),
+            "http://lab.example/red-box\nhttp://lab.example/blue-box\n");
+  EXPECT_THAT(ask("query", {"-e", "SELECT ?x WHERE { ?x w:on <http://lab.example/table> }"}),
+              HasSubstr("(2 rows)"));
+  // 0.2 m/s, for half a second more.
+  EXPECT_THAT(ask("pose", {"--of", "at-robot", "--wrt", "room", "--now", "10.5"}),
+              HasSubstr("position    0.8 1 0 m"));
+}
+
 TEST(WorldCommand, SaysWhatItDoesAndWhatIsMissing) {
   EXPECT_THAT(run_sinew({"world", "--help"}).out, HasSubstr("relations"));
   EXPECT_EQ(run_sinew({"world"}).exit_code, 2);
