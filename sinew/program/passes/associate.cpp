@@ -1,8 +1,23 @@
 #include "sinew/program/passes/associate.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sinew::program {
+
+namespace {
+
+// As std::stable_sort, without a buffer: the lists are short.
+template <typename List, typename Before>
+void sort_stably(List& list, Before before) {
+  for (std::size_t i = 1; i < list.size(); ++i) {
+    for (std::size_t k = i; k > 0 && before(list[k], list[k - 1]); --k) {
+      std::swap(list[k], list[k - 1]);
+    }
+  }
+}
+
+}  // namespace
 
 // The product of factors first..last, from left to right; the coefficient belongs to the first.
 Ref Associator::multiply(SignedProduct& term, std::size_t first, std::size_t last) {
@@ -11,15 +26,14 @@ Ref Associator::multiply(SignedProduct& term, std::size_t first, std::size_t las
   return result;
 }
 
-Ref Associator::sum(std::vector<SignedProduct> terms, double deadline) {
-  std::vector<Ref> values;
-  std::vector<Product> products;
+Ref Associator::sum(SignedProducts& terms, double deadline) {
+  Values values;
+  Products products;
   for (SignedProduct& term : terms) {
     auto& factors = term.factors;
     if (association_ != Association::kPlain && factors.size() > 1) {
       // The factors that are ready first are multiplied first.
-      std::stable_sort(factors.begin(), factors.end(),
-                       [this](Ref a, Ref b) { return ready_.of(a) < ready_.of(b); });
+      sort_stably(factors, [this](Ref a, Ref b) { return ready_.of(a) < ready_.of(b); });
     }
     const std::size_t n = factors.size();
     const bool scaled = term.coefficient != 1.0 && term.coefficient != -1.0;
@@ -32,18 +46,17 @@ Ref Associator::sum(std::vector<SignedProduct> terms, double deadline) {
     }
   }
   if (association_ == Association::kFused) {
-    return fused_sum(std::move(values), std::move(products), deadline);
+    return fused_sum(values, products, deadline);
   }
-  if (association_ == Association::kShallow) return shallow_sum(std::move(values));
+  if (association_ == Association::kShallow) return shallow_sum(values);
   Ref result = dag_.constant(0.0);
   for (const Ref value : values) result = dag_.add(result, value);
   return result;
 }
 
 // Adds the two values that are ready first.
-void Associator::combine_first_two(std::vector<Ref>& values) {
-  std::stable_sort(values.begin(), values.end(),
-                   [this](Ref a, Ref b) { return ready_.of(a) > ready_.of(b); });
+void Associator::combine_first_two(Values& values) {
+  sort_stably(values, [this](Ref a, Ref b) { return ready_.of(a) > ready_.of(b); });
   const Ref a = values.back();
   values.pop_back();
   const Ref b = values.back();
@@ -52,15 +65,14 @@ void Associator::combine_first_two(std::vector<Ref>& values) {
 }
 
 // As Huffman (1952) for codes: always the two that are ready first.
-Ref Associator::shallow_sum(std::vector<Ref> values) {
+Ref Associator::shallow_sum(Values& values) {
   while (values.size() > 1) combine_first_two(values);
   return values.empty() ? dag_.constant(0.0) : values.front();
 }
 
 // When a chain is ready that adds one product after the other to the sum of the values.
-double Associator::chain_time(const std::vector<Ref>& values,
-                              const std::vector<Product>& products) {
-  std::vector<double> times;
+double Associator::chain_time(const Values& values, const Products& products) {
+  SmallList<double, 8> times;
   for (const Ref value : values) times.push_back(ready_.of(value));
   std::sort(times.begin(), times.end());
   double sum = times.empty() ? 0.0 : times.front();
@@ -71,9 +83,8 @@ double Associator::chain_time(const std::vector<Ref>& values,
   return sum;
 }
 
-Ref Associator::fused_sum(std::vector<Ref> values, std::vector<Product> products, double deadline) {
-  std::stable_sort(products.begin(), products.end(),
-                   [](const Product& a, const Product& b) { return a.ready < b.ready; });
+Ref Associator::fused_sum(Values& values, Products& products, double deadline) {
+  sort_stably(products, [](const Product& a, const Product& b) { return a.ready < b.ready; });
   const auto earliest = [&] {
     return std::min_element(values.begin(), values.end(),
                             [this](Ref a, Ref b) { return ready_.of(a) < ready_.of(b); });
@@ -83,7 +94,7 @@ Ref Associator::fused_sum(std::vector<Ref> values, std::vector<Product> products
     products.erase(products.begin());
   }
   const bool chain = chain_time(values, products) <= deadline;
-  if (chain) values = {shallow_sum(std::move(values))};
+  if (chain) values = {shallow_sum(values)};
   for (const Product& product : products) {
     // A value that is not ready when this product could be is better left to a later one.
     const auto value = earliest();
@@ -93,7 +104,7 @@ Ref Associator::fused_sum(std::vector<Ref> values, std::vector<Product> products
       values.push_back(dag_.multiply(product.a, product.b));
     }
   }
-  return shallow_sum(std::move(values));
+  return shallow_sum(values);
 }
 
 }  // namespace sinew::program

@@ -14,6 +14,7 @@ struct SignedProduct {
   double coefficient = 1.0;
   SmallList<Ref, 4> factors;
 };
+using SignedProducts = std::vector<SignedProduct>;
 
 class Associator {
  public:
@@ -21,7 +22,7 @@ class Associator {
       : dag_(dag), ready_(dag), association_(association) {}
 
   // `deadline`: when the sum has to be ready; of use for kFused only.
-  Ref sum(std::vector<SignedProduct> terms, double deadline);
+  Ref sum(SignedProducts& terms, double deadline);
 
  private:
   // Two factors that are still to be multiplied.
@@ -31,10 +32,13 @@ class Associator {
   };
 
   Ref multiply(SignedProduct& term, std::size_t first, std::size_t last);
-  Ref shallow_sum(std::vector<Ref> values);
-  Ref fused_sum(std::vector<Ref> values, std::vector<Product> products, double deadline);
-  double chain_time(const std::vector<Ref>& values, const std::vector<Product>& products);
-  void combine_first_two(std::vector<Ref>& values);
+  using Values = SmallList<Ref, 8>;
+  using Products = SmallList<Product, 8>;
+
+  Ref shallow_sum(Values& values);
+  Ref fused_sum(Values& values, Products& products, double deadline);
+  double chain_time(const Values& values, const Products& products);
+  void combine_first_two(Values& values);
 
   Dag& dag_;
   ReadyTimes ready_;

@@ -56,11 +56,14 @@ class Reader {
     if (dag().is_constant(ref)) {
       polynomial.terms.push_back({dag().constant_value(ref), {}});
     } else if (taken_up(i)) {
-      for (Monomial& term : system_.polynomial[i].terms) {
-        term.coefficient *= sign;
-        polynomial.terms.push_back(std::move(term));
+      std::vector<Monomial>& inner = system_.polynomial[i].terms;
+      for (Monomial& term : inner) term.coefficient *= sign;
+      if (polynomial.terms.empty()) {
+        polynomial.terms = std::move(inner);
+      } else {
+        for (Monomial& term : inner) polynomial.terms.push_back(std::move(term));
       }
-      system_.polynomial[i].terms.clear();
+      inner.clear();
     } else {
       polynomial.terms.push_back({sign, {i}});
     }
@@ -137,7 +140,7 @@ class Writer {
       }
       result_.dag.set_origin(polynomial.origin);
       const bool known = i < deadline_.size();
-      copy_[i] = associate_.sum(std::move(terms), known ? deadline_[i] : 0.0);
+      copy_[i] = associate_.sum(terms, known ? deadline_[i] : 0.0);
     } else {
       const Node& node = system_.graph.dag.node(i);
       const int operands = arity(node.op);

@@ -26,6 +26,7 @@ class SmallList {
   T& operator[](std::size_t i) { return begin()[i]; }
   const T& operator[](std::size_t i) const { return begin()[i]; }
   const T& front() const { return *begin(); }
+  const T& back() const { return begin()[size_ - 1]; }
 
   void push_back(T value) {
     if (size_ == N) long_.assign(short_.begin(), short_.end());
@@ -36,6 +37,7 @@ class SmallList {
     }
     ++size_;
   }
+  void pop_back() { erase(end() - 1); }
   void append(const T* first, const T* last) {
     for (; first != last; ++first) push_back(*first);
   }
