@@ -154,6 +154,8 @@ bool run_lockstep(Host& host, LateSwap& swap, std::uint64_t cycles) {
 void check(const LiveOptions& options) {
   if (options.rate && !(*options.rate > 0))
     fail("a rate of " + std::to_string(*options.rate), "more than 0 Hz");
+  if (!(options.age_limit > 0))
+    fail("an age limit of " + std::to_string(options.age_limit) + " s", "more than 0 s");
   if (options.seconds < 0)
     fail("a run of " + std::to_string(options.seconds) + " s", "more than 0 s");
   if (options.lockstep && (options.robot != "mujoco" || !(options.seconds > 0)))
@@ -165,6 +167,11 @@ void check(const LiveOptions& options) {
     fail("it is not said when --swap is to happen", "add --swap-at SECONDS");
   if (options.swap_at && !(*options.swap_at >= 0))
     fail("--swap-at " + std::to_string(*options.swap_at), "0 s or later");
+}
+
+bool commands(const PlannedTask& task) {
+  return std::any_of(task.plan.externals.begin(), task.plan.externals.end(),
+                     [](const program::External& each) { return each.operation == "write"; });
 }
 
 // The robot that all tasks speak to.
@@ -290,6 +297,8 @@ int run_live(const ModelOptions& files, const QueryOptions& query, const LiveOpt
   const runtime::PrepareOptions how{.interpret = interpret, .fast = false};
   for (const PlannedTask& task : application.tasks)
     host.add_task(task.options, runtime::Executable::prepare(task.plan, host.bindings(), how));
+  if (std::none_of(application.tasks.begin(), application.tasks.end(), commands))
+    std::cerr << "note: no joint force is computed, so the robot is only watched\n";
   for (const runtime::Connection& connection : application.connections) host.connect(connection);
   for (const runtime::Reaction& reaction : application.reactions) host.react(reaction);
 

@@ -101,6 +101,9 @@ int run_plot(Arguments arguments) {
   if (const auto code = parse(app, std::move(arguments))) return *code;
 
   const Table table = read_csv(read_input(file), file);
+  if (table.rows() == 0)
+    throw Error(
+        {{file, 2, 0}, "", "has no rows, so there is nothing to draw", "record a run", {}, {}});
   Figure figure{title, column(table, column_of(table, "time", file)), {}, {}};
   for (const std::string& panel : panels) figure.panels.push_back(panel_of(panel, table, file));
   if (panels.empty()) figure.panels = every_panel(table, phase);

@@ -46,7 +46,9 @@ std::vector<std::size_t> match_columns(const std::vector<std::string>& inputs, c
 int run_run(Arguments arguments) {
   CLI::App app(
       "Evaluate a query for every row of a CSV file: columns are named like the program's inputs "
-      "(position.joint1, …), one row is one evaluation. Or, with --robot, run it in a loop.",
+      "(position.joint1, …), one row is one evaluation. Or, with --robot, run it in a loop, or the "
+      "tasks "
+      "of a host model among the MODELs (docs/runtime.md), each with its own solver and rate.",
       "sinew run");
   ModelOptions models_options;
   QueryOptions query;

@@ -12,6 +12,20 @@
 #include "write_models.h"
 
 namespace sinew::cli {
+namespace {
+
+// An update that changes nothing is no fault, but hardly ever what was meant.
+void explain_nothing(const std::string& update, bool without_robot, bool without_facts) {
+  std::cerr << "warning: the update finds nothing to change in this algorithm";
+  if (without_robot && update.find("https://w3id.org/sinew/normalised") != std::string::npos)
+    std::cerr << "; it asks for the robot's tree: add --model ROBOT…";
+  if (without_facts && (update.find("sa:reads") != std::string::npos ||
+                        update.find("sa:writes") != std::string::npos))
+    std::cerr << "; it asks what closures read and write: add --facts";
+  std::cerr << "\n";
+}
+
+}  // namespace
 
 int run_weave(Arguments arguments) {
   CLI::App app(
@@ -42,12 +56,14 @@ int run_weave(Arguments arguments) {
   const graph::Id algorithm = algorithm_of(*models, models_options, {});
   if (!robot.empty()) model::write(robot_tree(*models, {}), models->store);
   if (facts) program::write_facts(models->store, algorithm);
+  const std::string text = with_known_prefixes(read_input(update));
   const auto counts =
-      algorithm::weave(models->store, algorithm, with_known_prefixes(read_input(update)), update,
+      algorithm::weave(models->store, algorithm, text, update,
                        repeat ? algorithm::Rounds::kUntilSettled : algorithm::Rounds::kOne);
   std::cerr << counts.added << " triples added, " << counts.removed << " removed";
   if (repeat) std::cerr << " in " << counts.rounds << " rounds";
   std::cerr << "\n";
+  if (counts.added + counts.removed == 0) explain_nothing(text, robot.empty(), !facts);
   write_output(output, algorithm_as_jsonld(models->store.view(), algorithm));
   return kOk;
 }

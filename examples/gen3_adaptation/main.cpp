@@ -37,7 +37,9 @@ constexpr double kHoldBefore_s = 2, kUnknown_s = 2, kHoldAfter_s = 4;
 constexpr double kStill_m = 1e-3;     // error before, and at the end
 constexpr double kSunk_m = 1e-2;      // at least so much while the object is unknown
 constexpr double kExchange_s = 1e-3;  // the exchange in the loop: less than a cycle
-constexpr double kAim_s = 0.1;        // from "attached" to "new program running"
+// From "attached" to "new program running": the aim is of the clock, which a loaded machine misses;
+// the limit is of what the processor computes, in whatever build.
+constexpr double kAim_s = 0.1, kMaximumComputed_s = 0.5;
 
 struct Models {
   graph::Store store;
@@ -45,15 +47,14 @@ struct Models {
   model::Tree tree;
 };
 
-std::unique_ptr<Models> load(const std::vector<fs::path>& files) {
-  auto models = std::make_unique<Models>();
+// These files join what is in the graph already, and the tree is made anew.
+void add(Models& models, const std::vector<fs::path>& files) {
   Report report;
-  model::load_files(files, {}, models->store, models->places, report);
+  model::load_files(files, {}, models.store, models.places, report);
   report.throw_if_errors();
-  models->tree = model::normalise(models->store, models->places, {}, report);
+  models.tree = model::normalise(models.store, models.places, {}, report);
   report.throw_if_errors();
-  model::write(models->tree, models->store);
-  return models;
+  model::write(models.tree, models.store);
 }
 
 program::HostPlan plan_of(Models& models, graph::Id algorithm, const std::string& name) {
@@ -132,7 +133,8 @@ int run(const fs::path& root, const fs::path& folder) {
   std::sort(files.begin(), files.end());
   if (std::string why; !backend::jit_available(&why)) std::cout << "interpreting: " << why << "\n";
 
-  const auto models = load(files);
+  const auto models = std::make_unique<Models>();
+  add(*models, files);
   robot::MujocoOptions simulation;
   simulation.scene =
       robot::parse_scene(text_of(here / "scene.json"), (here / "scene.json").string());
@@ -181,14 +183,14 @@ int run(const fs::path& root, const fs::path& folder) {
   wait_for(kUnknown_s);
 
   // The object becomes part of the model: from here on the time counts.
-  const Nanoseconds attached = runtime::now();
-  std::vector<fs::path> with_object = files;
-  with_object.push_back(here / "object.jsonld");
-  const auto grown = load(with_object);
-  program::HostPlan plan = solver_plan(*grown, "rnea");
+  const Nanoseconds attached = runtime::now(), cpu_before = runtime::thread_time();
+  add(*models, {here / "object.jsonld"});
+  const Nanoseconds loaded = runtime::now();
+  program::HostPlan plan = solver_plan(*models, "rnea");
   const Nanoseconds synthesised = runtime::now();
   auto next = prepare(std::move(plan));
   const Nanoseconds compiled = runtime::now();
+  const Nanoseconds cpu = runtime::thread_time() - cpu_before;
   host.swap("dynamics", std::move(next));
   while (!host.last_swap()) std::this_thread::sleep_for(std::chrono::microseconds(200));
   phase = 3;
@@ -203,9 +205,11 @@ int run(const fs::path& root, const fs::path& folder) {
   const auto ms = [](Nanoseconds time) { return runtime::to_seconds(time) * 1e3; };
   fmt::print("attached -> new program running   {:.1f} ms (aim: {:.0f} ms)\n",
              ms(swap.running - attached), kAim_s * 1e3);
-  fmt::print("  model, synthesis, plan          {:.1f} ms\n", ms(synthesised - attached));
+  fmt::print("  object, tree                    {:.1f} ms\n", ms(loaded - attached));
+  fmt::print("  synthesis, plan                 {:.1f} ms\n", ms(synthesised - loaded));
   fmt::print("  machine code                    {:.1f} ms\n", ms(compiled - synthesised));
   fmt::print("  next boundary of a cycle        {:.2f} ms\n", ms(swap.running - compiled));
+  fmt::print("  computed, without waiting       {:.1f} ms\n", ms(cpu));
   fmt::print("exchange in the loop              {:.1f} us, of which computed {:.1f} us\n",
              ms(swap.in_loop) * 1e3, ms(swap.in_loop_cpu) * 1e3);
   fmt::print("jitter                            {}\n", to_string(*statistics.lateness));
@@ -245,6 +249,8 @@ int run(const fs::path& root, const fs::path& folder) {
   expect(before < kStill_m, "the hand holds still before");
   expect(during > kSunk_m, "it sinks under an object that the program does not know");
   expect(after < kStill_m, "and is back once the program knows it");
+  expect(runtime::to_seconds(cpu) < kMaximumComputed_s,
+         "the new program is computed in half a second of the processor's time");
   if (runtime::to_seconds(swap.running - attached) > kAim_s)
     std::cout << "  (the aim of 100 ms was missed: a loaded machine, or a build that is not "
                  "optimised)\n";

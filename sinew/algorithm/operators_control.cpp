@@ -41,6 +41,17 @@ constexpr OperatorRow kRows[] = {
      "signal:signal -> force:joint-force", "", "tau = s", "force = signal"},
     {"joint-acceleration-of-signal", SINEW_OWN "joint-acceleration-of-signal",
      "signal:signal -> acceleration:joint-acceleration", "", "qdd = s", "acceleration = signal"},
+    // What a unit constraint force, 1 N or 1 N m, does at an acceleration.
+    {"acceleration-energy-of-signal", SINEW_OWN "acceleration-energy-of-signal",
+     "signal:signal -> energy:acceleration-energy", "", "E = s", "energy = signal"},
+    {"acceleration-energy-of-linear-acceleration",
+     SINEW_OWN "acceleration-energy-of-linear-acceleration",
+     "signal:signal -> energy:acceleration-energy", "", "E = 1 N a",
+     "energy = N signal; signal = M-PER-SEC2"},
+    {"acceleration-energy-of-angular-acceleration",
+     SINEW_OWN "acceleration-energy-of-angular-acceleration",
+     "signal:signal -> energy:acceleration-energy", "", "E = 1 N m al",
+     "energy = N-M signal; signal = RAD-PER-SEC2"},
     // The transpose of a Jacobian, column by column.
     {"joint-force-from-column", SINEW_OWN "joint-force-from-column",
      "column:jacobian-column wrench:wrench -> force:joint-force", "wrench.at = column.at",
@@ -53,6 +64,9 @@ constexpr OperatorRow kRows[] = {
     {"spring-damper", SINEW_OWN "spring-damper",
      "error:signal velocity:signal stiffness:signal damping:signal -> force:signal", "",
      "f = k e - d v", "force = stiffness error; force = damping velocity"},
+    {"inertia-force", SINEW_OWN "inertia-force",
+     "force:signal inertia:signal acceleration:signal -> total:signal", "", "f' = f + m a",
+     "total = force; force = inertia acceleration"},
     {"proportional-integral-derivative", SINEW_OWN "proportional-integral-derivative",
      "error:signal integral:signal rate:signal proportional-gain:signal integral-gain:signal "
      "derivative-gain:signal -> control:signal",

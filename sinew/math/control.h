@@ -24,6 +24,13 @@ S spring_damper_force(const S& e, const S& v, const S& k, const S& d) {
   return k * e - d * v;
 }
 
+// f' = f + m a: the term of an impedance's inertia. Hogan (1985), part I, equation 4, of the errors
+// of motion: f = k e + d e' + m e''.
+template <typename S>
+S force_with_inertia(const S& f, const S& m, const S& a) {
+  return f + m * a;
+}
+
 // --- Proportional, integral, derivative: K. J. Astrom, T. Hagglund, PID Controllers (1995).
 
 // u = kp e + ki i + kd r, with i the integral and r the rate of e.

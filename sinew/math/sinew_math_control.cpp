@@ -65,6 +65,16 @@ void sinew_joint_acceleration_of_signal(const double* s, double* out) { store(*s
 
 void sinew_joint_force_of_signal(const double* s, double* out) { store(*s, out); }
 
+void sinew_acceleration_energy_of_signal(const double* s, double* out) { store(*s, out); }
+
+void sinew_acceleration_energy_of_linear_acceleration(const double* a, double* out) {
+  store(*a, out);
+}
+
+void sinew_acceleration_energy_of_angular_acceleration(const double* al, double* out) {
+  store(*al, out);
+}
+
 void sinew_joint_force_from_column(const double* column, const double* W, double* out) {
   store(power(load<VelocityTwist>(column), load<Wrench>(W)), out);
 }
@@ -76,6 +86,10 @@ void sinew_damping(const double* v, const double* v_max, const double* f_max, do
 void sinew_spring_damper(const double* e, const double* v, const double* k, const double* d,
                          double* out) {
   store(spring_damper_force(*e, *v, *k, *d), out);
+}
+
+void sinew_inertia_force(const double* f, const double* m, const double* a, double* out) {
+  store(force_with_inertia(*f, *m, *a), out);
 }
 
 void sinew_proportional_integral_derivative(const double* e, const double* i, const double* r,

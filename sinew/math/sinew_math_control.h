@@ -22,10 +22,14 @@ void sinew_signal_of_joint_velocity(const double qd[1], double out[1]);
 void sinew_signal_of_joint_acceleration(const double qdd[1], double out[1]);
 void sinew_joint_acceleration_of_signal(const double s[1], double out[1]);
 void sinew_joint_force_of_signal(const double s[1], double out[1]);
+void sinew_acceleration_energy_of_signal(const double s[1], double out[1]);
+void sinew_acceleration_energy_of_linear_acceleration(const double a[1], double out[1]);
+void sinew_acceleration_energy_of_angular_acceleration(const double al[1], double out[1]);
 void sinew_joint_force_from_column(const double column[6], const double W[6], double out[1]);
 void sinew_damping(const double v[1], const double v_max[1], const double f_max[1], double out[1]);
 void sinew_spring_damper(const double e[1], const double v[1], const double k[1], const double d[1],
                          double out[1]);
+void sinew_inertia_force(const double f[1], const double m[1], const double a[1], double out[1]);
 void sinew_proportional_integral_derivative(const double e[1], const double i[1], const double r[1],
                                             const double kp[1], const double ki[1],
                                             const double kd[1], double out[1]);

@@ -40,6 +40,9 @@ std::vector<Kernel> kernels_of_control() {
       row("signal-of-joint-acceleration", []<typename S>(const S& qdd) { return qdd; }),
       row("joint-acceleration-of-signal", []<typename S>(const S& s) { return s; }),
       row("joint-force-of-signal", []<typename S>(const S& s) { return s; }),
+      row("acceleration-energy-of-signal", []<typename S>(const S& s) { return s; }),
+      row("acceleration-energy-of-linear-acceleration", []<typename S>(const S& s) { return s; }),
+      row("acceleration-energy-of-angular-acceleration", []<typename S>(const S& s) { return s; }),
       row("joint-force-from-column",
           []<typename S>(const VelocityTwist<S>& column, const Wrench<S>& W) {
             return power(column, W);
@@ -48,6 +51,8 @@ std::vector<Kernel> kernels_of_control() {
                                     const S& f_max) { return damping_force(v, v_max, f_max); }),
       row("spring-damper", []<typename S>(const S& e, const S& v, const S& k,
                                           const S& d) { return spring_damper_force(e, v, k, d); }),
+      row("inertia-force", []<typename S>(const S& f, const S& m,
+                                          const S& a) { return force_with_inertia(f, m, a); }),
       row("proportional-integral-derivative",
           []<typename S>(const S& e, const S& i, const S& r, const S& kp, const S& ki,
                          const S& kd) { return pid(e, i, r, kp, ki, kd); }),

@@ -19,6 +19,17 @@ std::string seconds(double value) { return fmt::format("{} s", value); }
 // Two periods are the same within rounding.
 constexpr double kSamePeriod = 1e-9;
 
+// What integrates over time must run as often as it was made for.
+void require_period(const Executable& executable, const TaskOptions& options, double base_s) {
+  const double period = base_s * options.every;
+  const std::optional<double> wanted = executable.period_s();
+  if (!wanted || std::abs(*wanted - period) <= kSamePeriod * period) return;
+  fail("",
+       "task '" + options.name + "' integrates over steps of " + seconds(*wanted) +
+           ", but would run every " + seconds(period),
+       "let it run every " + seconds(*wanted));
+}
+
 }  // namespace
 
 std::string_view to_string(State state) {
@@ -53,13 +64,7 @@ void Host::add_task(const TaskOptions& options, std::unique_ptr<Executable> exec
       fail("", "a second task '" + options.name + "'", "each has a name of its own");
   if (options.every == 0)
     fail("", "task '" + options.name + "' runs in every 0th cycle", "1 or more");
-  const double period = options_.period_s * options.every;
-  if (const auto wanted = executable->period_s();
-      wanted && std::abs(*wanted - period) > kSamePeriod * period)
-    fail(executable->name(),
-         "task '" + options.name + "' integrates over steps of " + seconds(*wanted) +
-             ", but would run every " + seconds(period),
-         "let it run every " + seconds(*wanted));
+  require_period(*executable, options, options_.period_s);
   Task& task = tasks_.emplace_back();
   task.options = options;
   task.halted = options.halted;
@@ -251,6 +256,7 @@ SwapReport Host::swap(const std::string& name, std::unique_ptr<Executable> next,
   reclaim();
   const std::size_t index = task_index(name);
   Task& task = tasks_[index];
+  require_period(*next, task.options, options_.period_s);
   StatePlan plan = plan_states(*task.latest, task.given, *next, rules);
   const Executable* before = task.latest;
   std::vector<bool> given_before = std::move(task.given);

@@ -10,6 +10,7 @@
 
 #include "sinew/base/error.h"
 #include "sinew/graph/store.h"
+#include "sinew/synthesis/motion_drivers.h"
 #include "sinew/synthesis/plan.h"
 #include "sinew/synthesis/robot.h"
 #include "sinew/synthesis/step.h"
@@ -51,6 +52,7 @@ struct Control {
   Drives drives = Drives::kNothing;
   bool accelerations = false;  // joint accelerations are the task's, zero where no driver has one
   bool forces = false;         // joint forces (of forward dynamics) are the task's
+  bool constraints = false;    // so are the accelerations that hybrid dynamics imposes
 
   // Frames whose quantities are needed: (a row of asked.cpp, frame).
   std::vector<std::pair<std::string, Id>> frames;
@@ -73,6 +75,10 @@ struct AskedForces {
 // nothing.
 void decide(Control& control, const AskedForces& asked, std::span<const std::string> given,
             Report& report, const graph::View& view);
+
+// The number of the task that a constrained direction is; null where it comes from outside.
+Id energy_of(const Control* control, const MotionDrivers& drivers,
+             const ConstraintDirection& direction);
 
 // All steps, and those of the task in their places.
 std::vector<Step> steps_with(const Control& control, std::span<const Step> steps);

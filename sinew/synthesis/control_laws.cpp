@@ -39,13 +39,8 @@ BlockIndex ControlSignals::controller(const Controller& controller) {
       close("damping", {velocity, maximum_velocity, maximum_force, force}, controller.id);
       return hand_on(controller, force);
     }
-    case ControllerKind::kSpringDamper: {
-      const BlockIndex error = number(controller.error), velocity = number(controller.velocity),
-                       stiffness = number(controller.stiffness),
-                       damping = number(controller.damping), force = block();
-      close("spring-damper", {error, velocity, stiffness, damping, force}, controller.id);
-      return hand_on(controller, force);
-    }
+    case ControllerKind::kSpringDamper:
+      return hand_on(controller, impedance(controller, computed_slot(controller, kControl)));
     case ControllerKind::kPid:
       return hand_on(controller, pid(controller, computed_slot(controller, kControl)));
     case ControllerKind::kPoseImpedance:
@@ -57,6 +52,36 @@ BlockIndex ControlSignals::controller(const Controller& controller) {
                       "name the wrench among the solver's cartesian forces",
                       {},
                       {}});
+}
+
+// f = k e - d (v - v_d) - m (a - a_d), with what is stated of it.
+BlockIndex ControlSignals::impedance(const Controller& controller, std::string_view slot) {
+  const Id id = controller.id;
+  const BlockIndex error = number(controller.error), stiffness = number(controller.stiffness),
+                   damping = number(controller.damping);
+  BlockIndex velocity = number(controller.velocity);
+  if (controller.desired_velocity) {
+    const BlockIndex relative = signal("relative-velocity", id, unit_of(controller.velocity));
+    close("error-of-equality", {number(controller.desired_velocity), velocity, relative}, id);
+    velocity = relative;
+  }
+  const std::string& unit = unit_of(controller.control);
+  const BlockIndex force =
+      signal(controller.inertia ? "without-inertia" : slot, controller.control, unit);
+  close("spring-damper", {error, velocity, stiffness, damping, force}, id);
+  if (!controller.inertia) return force;
+  const Id measured = controller.measured_acceleration, desired = controller.desired_acceleration;
+  BlockIndex acceleration;
+  if (measured) {
+    acceleration = signal("missing-acceleration", id, unit_of(measured));
+    close("error-of-equality",
+          {number(measured), desired ? number(desired) : zero_like(measured), acceleration}, id);
+  } else {
+    acceleration = number(desired);
+  }
+  const BlockIndex total = signal(slot, controller.control, unit);
+  close("inertia-force", {force, number(controller.inertia), acceleration, total}, id);
+  return total;
 }
 
 // The integral and the rate are left out where their gains are known to be zero.
@@ -131,6 +156,41 @@ BlockIndex ControlSignals::hand_on(const Controller& controller, BlockIndex comp
   return last;
 }
 
+// The set point of a twist, seen from the frame whose origin it is about.
+BlockIndex ControlSignals::desired_twist(const Controller& controller, Id frame, Id wrt) {
+  const Id coordinates = controller.desired_twist;
+  const SpatialPlace& place = control_.places.at(coordinates);
+  const auto refuse = [&](std::string what, std::string remedy) {
+    throw Error(Problem{{},
+                        std::string(context_.view.terms().text(coordinates)),
+                        std::move(what),
+                        std::move(remedy),
+                        {},
+                        {}});
+  };
+  if (place.frame != frame)
+    refuse("it is about another point than the measured twist", "about the same");
+  if (place.axes[0][0] != 1 || place.axes[1][1] != 1 || place.axes[2][2] != 1)
+    refuse("it is seen by a frame whose axes are neither the base's nor its own",
+           "let it be seen by one of them");
+  const auto twist = [&](std::string_view slot, Id seen_by, Role role) {
+    return context_.builder.block({.slot = slot,
+                                   .represents = coordinates,
+                                   .quantity = "velocity-twist",
+                                   .of = coordinates,
+                                   .wrt = wrt,
+                                   .reference = frame,
+                                   .seen_by = seen_by,
+                                   .role = role});
+  };
+  if (!place.seen_from_root) return twist("setpoint", frame, Role::kInput);
+  const BlockIndex given = twist("setpoint", context_.robot.root_frame, Role::kInput);
+  const BlockIndex own = twist("setpoint-seen-from-itself", frame, Role::kInternal);
+  close("rotate-velocity-twist-to-distal", {context_.block("pose", frame), given, own},
+        controller.id);
+  return own;
+}
+
 void ControlSignals::pose_impedance(const Controller& controller) {
   const SpatialPlace& measured = control_.places.at(controller.measured_pose);
   const SpatialPlace& twist = control_.places.at(controller.measured_twist);
@@ -184,6 +244,14 @@ void ControlSignals::pose_impedance(const Controller& controller) {
   close("rotate-velocity-twist-to-distal",
         {context_.block("pose", frame), seen_from_root, velocity}, id);
 
+  BlockIndex relative = velocity;
+  if (controller.desired_twist) {
+    relative =
+        spatial("relative-twist", "velocity-twist", from.symbols[0], controller.desired_twist);
+    close("subtract-velocity-twist",
+          {velocity, desired_twist(controller, frame, from.symbols[1]), relative}, id);
+  }
+
   const task::Handler* handler = task_.handler_of(id);
   const bool gated = handler && handler->motion, slow = is_slow(handler);
   const auto wrench = [&](std::string_view slot, Role role) {
@@ -200,7 +268,7 @@ void ControlSignals::pose_impedance(const Controller& controller) {
   };
   BlockIndex last = wrench(gated || slow ? "computed" : "wrench", Role::kInternal);
   close("impedance",
-        {error, velocity, gain("stiffness", "spatial-stiffness", controller.spatial_stiffness),
+        {error, relative, gain("stiffness", "spatial-stiffness", controller.spatial_stiffness),
          gain("damping", "spatial-damping", controller.spatial_damping), last},
         id);
   if (gated) {

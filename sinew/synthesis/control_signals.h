@@ -41,6 +41,8 @@ class ControlSignals {
   // control_laws.cpp
   BlockIndex controller(const task::Controller& controller);
   BlockIndex pid(const task::Controller& controller, std::string_view slot);
+  BlockIndex impedance(const task::Controller& controller, std::string_view slot);
+  BlockIndex desired_twist(const task::Controller& controller, Id frame, Id wrt);
   void pose_impedance(const task::Controller& controller);
   // Through the handler's gate and rate: the last block is the control signal.
   BlockIndex hand_on(const task::Controller& controller, BlockIndex computed);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sinew/synthesis/asked.h"
+#include "sinew/synthesis/control.h"
 #include "sinew/synthesis/coordinates.h"
 #include "sinew/synthesis/joint_edge.h"
 
@@ -120,11 +121,12 @@ void make_constraints(Context& context) {
     context.make(spec);
   }
   for (const ConstraintDirection& direction : drivers.directions)
-    context.make({.slot = "acceleration-energy",
-                  .represents = direction.element,
-                  .quantity = "acceleration-energy",
-                  .role = Role::kInput,
-                  .label = direction.label});
+    context.make(
+        {.slot = "acceleration-energy",
+         .represents = direction.element,
+         .quantity = "acceleration-energy",
+         .role = energy_of(context.control, drivers, direction) ? Role::kInternal : Role::kInput,
+         .label = direction.label});
 }
 
 void make_weights(Context& context) {

@@ -38,8 +38,8 @@ class Resolver {
     check_singular();
     drivers_.apart = query_.drivers.list != DriverList::kTogether;
     drivers_.weighed = query_.drivers.list == DriverList::kWeighed;
-    drivers_.any = !drivers_.constraints.empty() || drivers_.apart ||
-                   !query_.drivers.limited.empty();
+    drivers_.any =
+        !drivers_.constraints.empty() || drivers_.apart || !query_.drivers.limited.empty();
     if (drivers_.any) {
       read_limits();
       group();
@@ -258,7 +258,9 @@ class Resolver {
       (apart ? new_group("wrench-" + wrench.label, wrench.frame) : drivers_.groups.front())
           .wrenches.push_back(i);
     }
-    if (gives("joint-force")) {
+    const bool of_task = query_.task && query_.task->solver &&
+                         query_.task->solver->algorithm == task::Algorithm::kHybrid;
+    if (gives("joint-force") || of_task) {
       DriverGroup* every = all_joints ? &new_group("joint-force", root) : nullptr;
       for (const RobotJoint& joint : robot_.joints) {
         const std::string name(joint.label.empty() ? short_name(view_.terms().text(joint.joint))

@@ -98,6 +98,23 @@ void make_accelerations(Context& context, ControlSignals& signals) {
   }
 }
 
+// The accelerations that hybrid dynamics imposes.
+void make_energies(Context& context, ControlSignals& signals) {
+  for (const ConstraintDirection& direction : context.drivers.directions) {
+    const Id number = energy_of(context.control, context.drivers, direction);
+    if (!number) continue;
+    const std::string& unit = task_of(context).quantities.at(number).unit;
+    const std::string_view operation =
+        unit == "M-PER-SEC2"     ? "acceleration-energy-of-linear-acceleration"
+        : unit == "RAD-PER-SEC2" ? "acceleration-energy-of-angular-acceleration"
+                                 : "acceleration-energy-of-signal";
+    context.closure(
+        operation,
+        {signals.number(number), context.block("acceleration-energy", direction.element)},
+        direction.element);
+  }
+}
+
 void compute_control(Context& context, const Visit&) {
   ControlSignals signals(context, *context.control);
   signals.make_all();
@@ -111,6 +128,7 @@ void compute_control(Context& context, const Visit&) {
                         at_body(context, driver.quantity, own));
   }
   make_joint_signals(context, signals);
+  if (context.control->constraints) make_energies(context, signals);
   if (context.control->accelerations) make_accelerations(context, signals);
 }
 
@@ -227,6 +245,7 @@ Step once(std::string name, std::string purpose, std::vector<std::string> needs,
 Step control_step(const Control& control) {
   std::vector<std::string> gives = {"control"};
   if (control.accelerations) gives.push_back("acceleration");
+  if (control.constraints) gives.push_back("acceleration-energy");
   return once("control", "the task's monitors and controllers work on what is measured",
               control.needs, std::move(gives), compute_control);
 }
@@ -260,6 +279,20 @@ Step distribution_step(const Control& control) {
 
 }  // namespace
 
+Id energy_of(const Control* control, const MotionDrivers& drivers,
+             const ConstraintDirection& direction) {
+  if (control == nullptr || !control->constraints || !direction.unit_force) return {};
+  const Id element = drivers.constraints[direction.constraint].element;
+  for (const task::AccelerationConstraint& constraint : control->task->solver->constraints) {
+    if (constraint.id != element) continue;
+    for (const task::AxisConstraint& axis : constraint.axes)
+      if ((*direction
+                .unit_force)[(axis.subspace == task::Subspace::kAngular ? 0 : 3) + axis.axis] == 1)
+        return axis.energy;
+  }
+  return {};
+}
+
 void decide(Control& control, const AskedForces& asked, std::span<const std::string> given,
             Report& report, const graph::View& view) {
   const task::Task& task = *control.task;
@@ -270,7 +303,10 @@ void decide(Control& control, const AskedForces& asked, std::span<const std::str
   using task::Algorithm;
   control.accelerations = task.solver->algorithm == Algorithm::kRecursiveNewtonEuler &&
                           asked.full && !gives("acceleration");
-  control.forces = task.solver->algorithm == Algorithm::kArticulatedBody && !gives("force");
+  const bool hybrid = task.solver->algorithm == Algorithm::kHybrid;
+  control.forces =
+      (hybrid || task.solver->algorithm == Algorithm::kArticulatedBody) && !gives("force");
+  control.constraints = hybrid && gives("acceleration-energy");
   if (control.forces || asked.control)
     control.drives = Drives::kDistribution;
   else if (asked.full || asked.bias || asked.rest)

@@ -397,10 +397,11 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   for (const AnsweredQuantity& one : models.answers) answered.push_back(one.row());
   Resolved resolved = resolve(store, view, robot, query, wrenches, drivers, answered, report);
   wish_for_drivers(wrenches, query, resolved);
-  const std::vector<std::string> given = given_slots(query);
+  std::vector<std::string> given = given_slots(query);
   std::optional<Control> control;
   if (query.task && !query.task->empty())
     control = control_of(view, robot, query, given, resolved, report);
+  if (control && control->constraints) std::erase(given, "acceleration-energy");
   throw_with_query(query, report);
   std::vector<Step> uncoupled = available_steps(drivers, models, false);
   std::vector<Step> available = available_steps(drivers, models, robot.coupled());

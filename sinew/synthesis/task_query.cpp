@@ -30,7 +30,31 @@ graph::Id frame_at(const graph::View& view, graph::Id point) {
   return found;
 }
 
+// The task's acceleration constraints, the most important first.
+void add_constraints(Query& query, const graph::Terms& terms, const task::Solver& solver) {
+  for (const task::AccelerationConstraint& constraint : solver.constraints) {
+    Given given{"acceleration-constraint", std::string(terms.text(constraint.attached_to))};
+    given.iri = terms.text(constraint.id);
+    for (const task::AxisConstraint& axis : constraint.axes)
+      given.directions.emplace_back(direction_word(axis));
+    query.given.push_back(std::move(given));
+  }
+  if (!solver.singular) return;
+  using Policy = task::Singular::Policy;
+  const Policy policy = solver.singular->policy;
+  query.drivers.singular = policy == Policy::kInOrder  ? Singular::kInOrder
+                           : policy == Policy::kDamped ? Singular::kDamped
+                                                       : Singular::kTruncated;
+  query.drivers.singular_number = solver.singular->number;
+}
+
 }  // namespace
+
+std::string_view direction_word(const task::AxisConstraint& axis) {
+  constexpr std::string_view kWords[] = {"angular-x", "angular-y", "angular-z",
+                                         "linear-x",  "linear-y",  "linear-z"};
+  return kWords[(axis.subspace == task::Subspace::kAngular ? 0 : 3) + axis.axis];
+}
 
 Query query_of_task(const graph::View& view, const graph::Places& places,
                     std::shared_ptr<const task::Task> task, Report& report) {
@@ -61,8 +85,10 @@ Query query_of_task(const graph::View& view, const graph::Places& places,
       query.given.push_back({"joint-velocity", every});
       break;
     case task::Algorithm::kHybrid:
-      error(solver.id, "hybrid dynamics is not asked for by a task",
-            "state its constraints in a query (--query), or choose another algorithm");
+      ask(query, "control-force", every);
+      query.given.push_back({"joint-velocity", every});
+      query.given.push_back({"gravity", ""});
+      add_constraints(query, terms, solver);
       break;
   }
   if (solver.algorithm != task::Algorithm::kRecursiveNewtonEuler)
@@ -76,7 +102,8 @@ Query query_of_task(const graph::View& view, const graph::Places& places,
   };
   for (const graph::Id output : solver.outputs) {
     if (is(output, vocab::kc_stat::JointForceCoordinate)) {
-      ask(query, "joint-force", every);
+      // Of hybrid dynamics: what actuators do in all, which is asked already.
+      if (solver.algorithm != task::Algorithm::kHybrid) ask(query, "joint-force", every);
     } else if (is(output, vocab::kc_stat::JointAccelerationCoordinate)) {
       ask(query, "joint-acceleration", every);
     } else if (const auto spatial = task->spatials.find(output); spatial != task->spatials.end()) {

@@ -32,6 +32,9 @@ class Checker {
     for (const Monitor& monitor : task_.monitors) check(monitor);
     for (const Controller& controller : task_.controllers) check(controller);
     for (const Handler& handler : task_.handlers) check(handler);
+    if (task_.solver)
+      for (const AccelerationConstraint& constraint : task_.solver->constraints)
+        for (const AxisConstraint& axis : constraint.axes) check(axis);
     one_handler();
   }
 
@@ -90,6 +93,16 @@ class Checker {
                       "state the \"tolerance\"");
   }
 
+  // An energy, or the acceleration at which a unit force has it.
+  void check(const AxisConstraint& axis) {
+    const bool angular = axis.subspace == Subspace::kAngular;
+    const Dimension energy = model::dimension::kForce * model::dimension::kAcceleration;
+    if (dimension(axis.energy) == energy) return;
+    expect(axis.energy, dimension_of(SpatialKind::kAccelerationTwist, axis.subspace),
+           fmt::format("the acceleration energy of <{}>, which may be in N-M-PER-SEC2 or in {},",
+                       text(axis.id), angular ? "RAD-PER-SEC2" : "M-PER-SEC2"));
+  }
+
   void check(const Controller& controller) {
     const std::string of = fmt::format(" of <{}>", text(controller.id));
     const Dimension none;
@@ -116,6 +129,12 @@ class Checker {
         gain(controller.stiffness, controller.control, controller.error, none,
              "the stiffness" + of);
         gain(controller.damping, controller.control, controller.velocity, none, "the damping" + of);
+        if (controller.desired_velocity)
+          same(controller.desired_velocity, controller.velocity, controller.id);
+        for (const Id acceleration :
+             {controller.desired_acceleration, controller.measured_acceleration})
+          if (acceleration && controller.inertia)
+            gain(controller.inertia, controller.control, acceleration, none, "the inertia" + of);
         break;
       case ControllerKind::kPoseImpedance:
         break;  // its units are checked where they are read
@@ -197,8 +216,12 @@ class Checker {
     for (const Controller& one : task_.controllers)
       for (const Id number :
            {one.error, one.velocity, one.maximum_velocity, one.maximum_force, one.proportional,
-            one.integral, one.derivative, one.decay_rate, one.limit, one.stiffness, one.damping})
+            one.integral, one.derivative, one.decay_rate, one.limit, one.stiffness, one.damping,
+            one.desired_velocity, one.inertia, one.desired_acceleration, one.measured_acceleration})
         visit(number, one.id);
+    if (!task_.solver) return;
+    for (const AccelerationConstraint& constraint : task_.solver->constraints)
+      for (const AxisConstraint& axis : constraint.axes) visit(axis.energy, axis.id);
   }
 
   void note_origins(std::unordered_map<Id, Id>& origin) {

@@ -127,6 +127,19 @@ void read_spring_damper(Reader& reader, Controller& controller) {
   controller.velocity = reader.number(node, hdl::measured_velocity, "the measured velocity");
   controller.stiffness = reader.number(node, hdl::stiffness, "the stiffness");
   controller.damping = reader.number(node, hdl::damping, "the damping");
+  controller.desired_velocity =
+      reader.optional_number(node, st::desired_velocity, "the desired velocity");
+  controller.inertia = reader.optional_number(node, hdl::inertia, "the inertia");
+  controller.desired_acceleration =
+      reader.optional_number(node, st::desired_acceleration, "the desired acceleration");
+  controller.measured_acceleration =
+      reader.optional_number(node, st::measured_acceleration, "the measured acceleration");
+  const bool accelerates = controller.desired_acceleration || controller.measured_acceleration;
+  if (controller.inertia && !accelerates)
+    reader.error(node, hdl::inertia, "an inertia that no acceleration meets",
+                 "name the desired-acceleration, the measured-acceleration, or both");
+  if (!controller.inertia && accelerates)
+    reader.error(node, hdl::inertia, "an acceleration without an inertia", "state the inertia");
 }
 
 SpatialGain read_gain(Reader& reader, Id node, std::string_view property, std::string_view what,
@@ -154,9 +167,16 @@ void read_pose_impedance(Reader& reader, Controller& controller) {
   controller.measured_pose = reader.required(node, st::measured_pose, "the measured pose");
   controller.desired_pose = reader.required(node, st::desired_pose, "the desired pose");
   controller.measured_twist = reader.required(node, st::measured_twist, "the measured twist");
-  for (const Id spatial :
-       {controller.measured_pose, controller.desired_pose, controller.measured_twist})
+  controller.desired_twist = reader.optional(node, st::desired_twist);
+  for (const Id spatial : {controller.measured_pose, controller.desired_pose,
+                           controller.measured_twist, controller.desired_twist})
     if (spatial) read_spatial(reader, spatial);
+  if (controller.desired_twist && reader.task.spatials.contains(controller.desired_twist)) {
+    const Spatial& twist = reader.task.spatials.at(controller.desired_twist);
+    if (twist.kind != SpatialKind::kVelocityTwist || !twist.setpoint)
+      reader.error(controller.desired_twist, "", "a desired twist comes from outside",
+                   "VelocityTwistCoordinate with the type Setpoint");
+  }
   controller.spatial_stiffness =
       read_gain(reader, node, hdl::stiffness, "the stiffness", kTorque / kAngle, kForce / kLength);
   controller.spatial_damping = read_gain(reader, node, hdl::damping, "the damping",
@@ -188,9 +208,9 @@ void read_controller(Reader& reader, Id node) {
                  "ImpedanceController or PoseImpedanceController");
     return;
   }
-  if (reader.graph.has(node, reader.iri(hdl::inertia)))
-    reader.error(node, hdl::inertia, "an impedance with an inertia needs a measured acceleration",
-                 "leave the inertia out: stiffness and damping are what is supported");
+  if (spatial && reader.graph.has(node, reader.iri(hdl::inertia)))
+    reader.error(node, hdl::inertia, "the impedance of a frame has no inertia of its own",
+                 "impose its acceleration by hybrid dynamics (docs/tasks.md), or leave it out");
   const bool damping_alone = !reader.graph.has(node, reader.iri(hdl::control_signal)) &&
                              controller.kind == ControllerKind::kDamping;
   const std::string_view property = damping_alone ? hdl::commanded_force : hdl::control_signal;

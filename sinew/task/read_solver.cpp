@@ -33,11 +33,7 @@ void check_joints(Reader& reader, const std::vector<Driver>& drivers, JointKind 
 void read_drivers(Reader& reader, Id node, Solver& solver) {
   const Id drivers_node = reader.required(node, slv::motion_drivers, "the motion drivers");
   if (!drivers_node) return;
-  for (const std::string_view property :
-       {slv::acceleration_constraint, slv::prioritization_hierarchy})
-    if (!reader.objects(drivers_node, property).empty())
-      reader.error(drivers_node, property, "a task does not drive hybrid dynamics",
-                   "state acceleration constraints and their priorities in a query");
+  read_acceleration_constraints(reader, drivers_node, solver);
   solver.cartesian_forces =
       drivers(reader, drivers_node, slv::cartesian_force, slv::force, "the wrench");
   solver.joint_forces =
@@ -106,6 +102,8 @@ void read_solver(Reader& reader) {
     if (!algorithm) return;
     solver.algorithm = *algorithm;
     read_drivers(reader, solver.id, solver);
+    solver.singular = read_singular(reader, solver.id);
+    check_constraints(reader, solver);
     solver.outputs = reader.objects(solver.id, slv::output);
     solver.root = reader.required(solver.id, slv::root, "the root frame");
     read_gravity(reader, solver.id, solver);

@@ -48,6 +48,11 @@ void read_handlers(Reader& reader);
 // read_solver.cpp
 void read_solver(Reader& reader);
 
+// read_constraints.cpp: what hybrid dynamics imposes
+void read_acceleration_constraints(Reader& reader, Id drivers, Solver& solver);
+std::optional<Singular> read_singular(Reader& reader, Id solver);
+void check_constraints(Reader& reader, const Solver& solver);
+
 // check_task.cpp: dimensions, and that every number has one origin
 void check_task(Reader& reader);
 

@@ -117,7 +117,11 @@ struct Controller {
   Id decay_rate;                          // kPid with a decaying integral, otherwise null
   Id limit;                               // kPid: of the control signal's magnitude; null: none
   Id stiffness, damping;                  // kSpringDamper
+  Id desired_velocity;                    // kSpringDamper; null: at rest
+  Id inertia;                             // kSpringDamper; null: none
+  Id desired_acceleration, measured_acceleration;  // of an inertia; null: zero
   Id measured_pose, desired_pose, measured_twist;  // kPoseImpedance
+  Id desired_twist;                                // kPoseImpedance; null: at rest
   SpatialGain spatial_stiffness, spatial_damping;  // kPoseImpedance
 };
 
@@ -143,6 +147,30 @@ enum class Algorithm : std::uint8_t {
   kForceDistribution,  // the transpose of the Jacobian: no masses
 };
 
+// The acceleration of a link's frame along one axis of the root's, or about it, that hybrid
+// dynamics imposes.
+struct AxisConstraint {
+  Id id;
+  Subspace subspace = Subspace::kLinear;
+  std::size_t axis = 0;  // 0, 1, 2: x, y, z
+  // The number that it is: an acceleration energy (unit constraint force times acceleration), or
+  // the acceleration itself.
+  Id energy;
+};
+
+struct AccelerationConstraint {
+  Id id;
+  Id attached_to;                    // a link
+  std::vector<AxisConstraint> axes;  // about x, y, z, then along x, y, z
+};
+
+// What happens where acceleration constraints depend on each other (docs/hybrid-dynamics.md).
+struct Singular {
+  enum class Policy : std::uint8_t { kInOrder, kDamped, kTruncated };
+  Policy policy = Policy::kInOrder;
+  double number = 0;  // a tolerance, or the damping
+};
+
 // A driver of a motion: a wrench on a link, or a number of a joint.
 struct Driver {
   Id id;
@@ -154,6 +182,8 @@ struct Solver {
   Id id;
   Algorithm algorithm = Algorithm::kRecursiveNewtonEuler;
   std::vector<Driver> cartesian_forces, joint_forces, joint_accelerations;
+  std::vector<AccelerationConstraint> constraints;  // the most important first
+  std::optional<Singular> singular;
   std::vector<Id> outputs;                       // coordinates of joints, poses or twists
   Id root;                                       // a frame; null where none is stated
   std::optional<std::array<double, 3>> gravity;  // the vector, seen from the root

@@ -99,6 +99,22 @@ TEST(StatisticsByQuery, AWeaveThatNeverSettlesIsAnError) {
       << result.err;
 }
 
+TEST(Weave, SaysWhyItFindsNothingToChange) {
+  const Folder folder;
+  std::vector<std::string> synth = {"synth"};
+  for (const auto& file : gen3_models()) synth.push_back(file.string());
+  const std::string algorithm = (folder / "algorithm.jsonld").string();
+  synth.insert(synth.end(),
+               {"--solver", "gravity", "--robot", "print", "--safe", "0", "-o", algorithm});
+  ASSERT_EQ(run_sinew(synth).exit_code, 0);
+  const auto weave = [&](const std::string& name) {
+    return run_sinew({"weave", algorithm, SINEW_SOURCE_DIR "/weaves/" + name}).err;
+  };
+  EXPECT_NE(weave("torque-checker.rq").find("add --model ROBOT"), std::string::npos);
+  EXPECT_NE(weave("depths.rq").find("add --facts"), std::string::npos);
+  EXPECT_NE(weave("log-damping.rq").find("finds nothing to change"), std::string::npos);
+}
+
 TEST(StatisticsByQuery, WithoutAQueryAWeaveIsBadUsage) {
   const Result result =
       run_sinew(stats_of_gen3("fpk", {"--weave", SINEW_SOURCE_DIR "/weaves/depths.rq"}));

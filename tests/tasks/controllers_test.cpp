@@ -107,6 +107,39 @@ TEST(Controllers, SpringDamperIsAnImpedanceOfOneAxis) {
               300 * 0.1 - 20 * 0.5, 1e-12);
 }
 
+// f = k e + d (v_d - v) + m (a_d - a), with what is stated of it.
+TEST(Controllers, ImpedanceFollowsAMotionAndShapesAnInertia) {
+  const std::string parts = setpoint("error", "M") + "," + setpoint("speed", "M-PER-SEC") + "," +
+                            setpoint("wanted-speed", "M-PER-SEC") + "," +
+                            setpoint("acceleration", "M-PER-SEC2") + "," +
+                            setpoint("wanted-acceleration", "M-PER-SEC2") + "," +
+                            constant("k", "N-PER-M", 300) + "," + constant("d", "N-SEC-PER-M", 20) +
+                            "," + constant("m", "KiloGM", 4) + "," + quantity("force", "N");
+  const auto force = [&](const std::string& more, const Values& in) {
+    std::string nodes = parts + R"(,
+    { "@id": "t:c", "@type": ["Controller", "ImpedanceController"], "error-signal": "t:error",
+      "measured-velocity": "t:speed", "stiffness": "t:k", "damping": "t:d",
+      "control-signal": "t:force")" +
+                        more + " }";
+    return Loop(nodes, pose()).cycle(in)["signal.force"];
+  };
+  const std::string moving = R"(, "desired-velocity": "t:wanted-speed")";
+  const std::string heavy = moving + R"(, "inertia": "t:m")";
+  Values in = {{"setpoint.error", 0.1}, {"setpoint.speed", 0.5}, {"setpoint.wanted-speed", 0.8}};
+  EXPECT_NEAR(force(moving, in), 300 * 0.1 + 20 * (0.8 - 0.5), 1e-12);
+  in["setpoint.wanted-acceleration"] = 2.5;
+  EXPECT_NEAR(force(heavy + R"(, "desired-acceleration": "t:wanted-acceleration")", in),
+              300 * 0.1 + 20 * (0.8 - 0.5) + 4 * 2.5, 1e-12);
+  in["setpoint.acceleration"] = -1.5;
+  EXPECT_NEAR(force(heavy + R"(, "desired-acceleration": "t:wanted-acceleration",
+                              "measured-acceleration": "t:acceleration")",
+                    in),
+              300 * 0.1 + 20 * (0.8 - 0.5) + 4 * (2.5 + 1.5), 1e-12);
+  in.erase("setpoint.wanted-acceleration");
+  EXPECT_NEAR(force(heavy + R"(, "measured-acceleration": "t:acceleration")", in),
+              300 * 0.1 + 20 * (0.8 - 0.5) + 4 * 1.5, 1e-12);
+}
+
 // Position -> velocity at every fifth cycle, velocity -> force at each: the outer one's result is
 // held, its integral advances by its own period.
 TEST(Controllers, CascadeRunsItsOuterLoopSlower) {

@@ -174,9 +174,9 @@ TEST(TaskSolvers, ViewsTakeEachAxis) {
   }
 }
 
-// A pose impedance against Eigen: the error by angle and axis, and the closed form of log.
-TEST(TaskSolvers, PoseImpedancePullsTowardsTheDesiredPose) {
-  Loop loop(kToolTwist + "," + tool_wrench("arm:frame/tool") + R"(,
+// An impedance between the tool and a goal, with what else is said of it.
+std::string pose_impedance(const std::string& more = "") {
+  return kToolTwist + "," + tool_wrench("arm:frame/tool") + R"(,
     { "@id": "t:measured", "@type": "Pose", "of": "arm:frame/tool",
       "with-respect-to": "arm:frame/base" },
     { "@id": "t:measured-coordinates", "@type": ["PoseReference", "PoseCoordinate"],
@@ -195,9 +195,13 @@ TEST(TaskSolvers, PoseImpedancePullsTowardsTheDesiredPose) {
     { "@id": "t:impedance", "@type": ["Controller", "ImpedanceController",
       "PoseImpedanceController"], "measured-pose": "t:measured-coordinates",
       "desired-pose": "t:desired-coordinates", "measured-twist": "t:twist-coordinates",
-      "stiffness": "t:k", "damping": "t:d", "control-signal": "t:wrench-coordinates" },)" +
-                solver("RecursiveNewtonEulerAlgorithm", kPush),
-            asked("bias"));
+      "stiffness": "t:k", "damping": "t:d", "control-signal": "t:wrench-coordinates")" +
+         more + R"( },)" + solver("RecursiveNewtonEulerAlgorithm", kPush);
+}
+
+// A pose impedance against Eigen: the error by angle and axis, and the closed form of log.
+TEST(TaskSolvers, PoseImpedancePullsTowardsTheDesiredPose) {
+  Loop loop(pose_impedance(), asked("bias"));
   for (const auto& s : kStates) {
     const Plane plane(s[0], s[1], s[2], s[3]);
     const double turn = s[0] + s[1];
@@ -220,6 +224,37 @@ TEST(TaskSolvers, PoseImpedancePullsTowardsTheDesiredPose) {
     EXPECT_NEAR(out["wrench.wrench-coordinates[1]"], 20 * angle - 0.2 * plane.wy, 1e-10);
     EXPECT_NEAR(out["wrench.wrench-coordinates[5]"], 300 * move(0) - 3 * velocity(0), 1e-9);
     EXPECT_NEAR(out["wrench.wrench-coordinates[3]"], 100 * move(1) - 1 * velocity(1), 1e-9);
+  }
+}
+
+// W = K log(X^-1 X_d) + D (V_d - V): the twist that is wanted acts through the damping alone.
+TEST(TaskSolvers, PoseImpedanceFollowsADesiredTwist) {
+  for (const std::string seen_by : {"arm:frame/base", "arm:frame/tool"}) {
+    const std::string twist = R"(, { "@id": "t:wanted-twist", "@type":
+      ["VelocityReference", "VelocityTwistCoordinate", "Setpoint"], "of-velocity": "t:twist",
+      "as-seen-by": ")" + seen_by +
+                              "\" }";
+    Loop still(pose_impedance(), asked("bias"));
+    Loop moving(pose_impedance(R"(, "desired-twist": "t:wanted-twist")") + twist, asked("bias"));
+    for (const auto& s : kStates) {
+      const double turn = s[0] + s[1], wy = 0.7, vx = -0.4, vz = 0.9;
+      Values in = state(s), out = still.cycle(in);
+      in["setpoint.wanted-twist[1]"] = wy;
+      in["setpoint.wanted-twist[3]"] = vx;
+      in["setpoint.wanted-twist[5]"] = vz;
+      Values with = moving.cycle(in);
+      // Seen from the tool: turned back about y.
+      const bool own = seen_by == "arm:frame/tool";
+      const double x = own ? vx : std::cos(turn) * vx - std::sin(turn) * vz;
+      const double z = own ? vz : std::sin(turn) * vx + std::cos(turn) * vz;
+      const auto more = [&](int i) {
+        const std::string name = "wrench.wrench-coordinates[" + std::to_string(i) + "]";
+        return with[name] - out[name];
+      };
+      EXPECT_NEAR(more(1), 0.2 * wy, 1e-10) << seen_by;
+      EXPECT_NEAR(more(3), 1 * x, 1e-9) << seen_by;
+      EXPECT_NEAR(more(5), 3 * z, 1e-9) << seen_by;
+    }
   }
 }
 

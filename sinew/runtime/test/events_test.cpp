@@ -244,6 +244,15 @@ TEST_F(EventsTest, ATaskThatIntegratesRunsInItsOwnPeriodOrNotAtAll) {
                 HasSubstr("integrates over steps of 0.002 s, but would run every 0.001 s"));
   }
   h.add_task({"main", 2}, executable(*m));
+  // Nor does a swap bring one.
+  const auto fast = watching("contact");
+  Host other({.period_s = 0.001});
+  other.bindings() = bindings_;
+  other.add_task({"main", 1}, executable(*fast));
+  other.set("main", "given.joint1", std::array{0.0});
+  other.set("main", "watched.contact", std::array{9.0});
+  other.configure();
+  EXPECT_THROW(other.swap("main", executable(*m)), Error);
 }
 
 }  // namespace

@@ -1,10 +1,8 @@
 #include "sinew/runtime/recorder.h"
 
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -97,29 +95,6 @@ TEST(Recorder, RefusesAFileThatItCannotWrite) {
 }
 
 class RecorderWithHost : public RuntimeTest {};
-
-// The disk is full after 4 KiB (a limit on the size of files fails writes in the same way).
-TEST_F(RecorderWithHost, AFullDiskEndsTheRecordingNotTheLoop) {
-  const Folder folder;
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-  std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{4096, before.rlim_max};
-  bindings_.recorder = std::make_shared<Recorder>(RecorderOptions{{folder / "log.csv"}, 4096});
-  const auto m = model();
-  weave(*m, "log", "a so:log ; so:quantity ( ?force ?pose ) ; sa:label \"all\"");
-  const auto h = host(*m, {.period_s = 1e-3, .cycles = 400, .late = LateCycles::kCatchUp});
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-  h->start();
-  h->wait();
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
-  EXPECT_EQ(h->statistics().cycles, 400u);
-  EXPECT_EQ(h->statistics().missed, 0u);
-  const RecorderReport report = bindings_.recorder->report();
-  EXPECT_EQ(report.written + report.lost, 400u);
-  EXPECT_THAT(report.fault, HasSubstr("File too large"));
-  EXPECT_THAT(to_string(report), HasSubstr("log.csv"));
-}
 
 TEST_F(RecorderWithHost, RecordsWhatALogSees) {
   const Folder folder;
