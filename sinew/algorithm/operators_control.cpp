@@ -51,7 +51,7 @@ constexpr OperatorRow kRows[] = {
     {"acceleration-energy-of-angular-acceleration",
      SINEW_OWN "acceleration-energy-of-angular-acceleration",
      "signal:signal -> energy:acceleration-energy", "", "E = 1 N m al",
-     "energy = N-M signal; signal = RAD-PER-SEC2"},
+     "energy RAD = N-M signal; signal = RAD-PER-SEC2"},
     // The transpose of a Jacobian, column by column.
     {"joint-force-from-column", SINEW_OWN "joint-force-from-column",
      "column:jacobian-column wrench:wrench -> force:joint-force", "wrench.at = column.at",

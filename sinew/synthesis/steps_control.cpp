@@ -201,11 +201,19 @@ BlockIndex from_root(Context& context, Id coordinates) {
   return result;
 }
 
+// Hybrid dynamics imposes what is constrained; what is not would fall. As with inverse dynamics, a
+// task's robot carries its own weight.
+bool carries_weight(const Control& control) {
+  return control.forces && control.task->solver->algorithm == task::Algorithm::kHybrid;
+}
+
 void compute_distribution(Context& context, const Visit&) {
   const std::string_view slot = context.control->forces ? "force" : "control-force";
   for (const RobotJoint& joint : context.robot.joints) {
     if (joint.kind == "floating") continue;
     std::vector<BlockIndex> parts = {context.block("joint-signal", joint.joint)};
+    if (carries_weight(*context.control))
+      parts.push_back(context.block("gravity-force", joint.joint));
     for (const task::Driver& driver : task_of(context).solver->cartesian_forces) {
       const Id frame = context.control->places.at(driver.quantity).frame;
       const Id pair = context.pair(frame, joint.joint);
@@ -273,6 +281,7 @@ Step command_step() {
 Step distribution_step(const Control& control) {
   std::vector<std::string> needs = {"control"};
   if (control.has_wrenches()) needs.push_back("jacobian");
+  if (carries_weight(control)) needs.push_back("gravity-force");
   return once("distribution", "the Jacobian's transpose turns the task's wrenches to joint forces",
               std::move(needs), {control.forces ? "force" : "control-force"}, compute_distribution);
 }
