@@ -180,11 +180,11 @@ Judgement Relations::judge(const Question& question) const {
   for (const Condition& condition : rule.conditions) {
     const std::size_t index = *quantity_index(condition.quantity);
     const QuantityDescription& row = quantities()[index];
-    Finding finding{.quantity = row.name,
-                    .unit = row.unit,
-                    .value = measure(index, first, second, third ? &*third : nullptr),
-                    .minimum = condition.minimum,
-                    .maximum = maximum(condition, question.second)};
+    ConditionFinding finding{.quantity = row.name,
+                             .unit = row.unit,
+                             .value = measure(index, first, second, third ? &*third : nullptr),
+                             .minimum = condition.minimum,
+                             .maximum = maximum(condition, question.second)};
     finding.holds = finding.value >= finding.minimum && finding.value <= finding.maximum;
     result.holds = result.holds && finding.holds;
     result.findings.push_back(finding);
@@ -215,7 +215,7 @@ std::string explain(const Judgement& judgement) {
   }
   text += judgement.holds ? ": true" : ": false";
   text += ", along the axes of " + judgement.axes;
-  for (const Finding& finding : judgement.findings) {
+  for (const ConditionFinding& finding : judgement.findings) {
     text += "; " + std::string(finding.quantity) + " " + number(finding.value) + " " +
             std::string(finding.unit) + (finding.holds ? " is within " : " is not within ") +
             number(finding.minimum) + " .. " + number(finding.maximum);

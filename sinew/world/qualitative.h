@@ -65,7 +65,7 @@ struct Question {
   FrameId viewer = {};  // of Axes::kViewer
 };
 
-struct Finding {  // one condition and what was measured
+struct ConditionFinding {  // one condition and what was measured
   std::string_view quantity, unit;
   double value = 0, minimum = 0, maximum = 0;
   bool holds = false;
@@ -76,7 +76,7 @@ struct Judgement {
   bool holds = false;
   std::string relation, first, second, third;  // IRIs
   std::string axes;                            // IRI of the frame whose axes were used
-  std::vector<Finding> findings;
+  std::vector<ConditionFinding> findings;
 };
 // In one line; numbers with six digits.
 std::string explain(const Judgement& judgement);
