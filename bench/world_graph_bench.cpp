@@ -1,18 +1,23 @@
 // The graph under the world beside libcgraph, the library that the source's property graph was
 // built on: inserting nodes with an edge each, visiting every node's edges. Names are made
-// beforehand.
+// beforehand; closing what was made is part of inserting it. Each side names its nodes; edges have
+// names in the world and in BM_cgraph_insert_named. What is visited is compared before it is timed.
 #include <benchmark/benchmark.h>
 #ifdef SINEW_HAVE_CGRAPH
 #include <graphviz/cgraph.h>
 #endif
 
+#include <algorithm>
 #include <memory>
 #include <random>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "sinew/graph/store.h"
+#include "sinew/graph/packed.h"
 #include "sinew/world/edit.h"
+#include "sinew/world/links.h"
 #include "sinew/world/world.h"
 
 namespace {
@@ -86,6 +91,32 @@ void BM_visit_graph(benchmark::State& state) {
 }
 BENCHMARK(BM_visit_graph)->Unit(benchmark::kMicrosecond);
 
+// The same from packed edges, which are made once of a version.
+void BM_visit_graph_packed(benchmark::State& state) {
+  const Inserted made;
+  const graph::Adjacency links(made.store.snapshot(), made.linked, graph::Direction::kOut);
+  for (auto _ : state) {
+    std::uint64_t sum = 0;
+    links.visit([&](graph::Id, std::span<const graph::Id> linked_to) {
+      for (const graph::Id id : linked_to) sum += id.value;
+    });
+    benchmark::DoNotOptimize(sum);
+  }
+  count(state);
+}
+BENCHMARK(BM_visit_graph_packed)->Unit(benchmark::kMicrosecond);
+
+void BM_pack_graph(benchmark::State& state) {
+  const Inserted made;
+  const graph::Snapshot snapshot = made.store.snapshot();
+  for (auto _ : state) {
+    const graph::Adjacency links(snapshot, made.linked, graph::Direction::kOut);
+    benchmark::DoNotOptimize(links.size());
+  }
+  count(state);
+}
+BENCHMARK(BM_pack_graph)->Unit(benchmark::kMicrosecond);
+
 // All edges, whatever their node.
 void BM_visit_all_graph(benchmark::State& state) {
   const Inserted made;
@@ -145,16 +176,43 @@ void BM_visit_world(benchmark::State& state) {
 }
 BENCHMARK(BM_visit_world)->Unit(benchmark::kMicrosecond);
 
+// The same from packed links, which are made once of a state.
+void BM_visit_world_packed(benchmark::State& state) {
+  const auto made = world_of_names();
+  const world::Links links(made->state());
+  for (auto _ : state) {
+    std::uint64_t sum = 0;
+    for (world::Index frame = 0; frame < links.frames(); ++frame) {
+      for (const world::Link link : links.of(frame)) sum += link.other;
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+  count(state);
+}
+BENCHMARK(BM_visit_world_packed)->Unit(benchmark::kMicrosecond);
+
+void BM_pack_world(benchmark::State& state) {
+  const auto made = world_of_names();
+  const world::State now = made->state();
+  for (auto _ : state) {
+    const world::Links links(now);
+    benchmark::DoNotOptimize(links.size());
+  }
+  count(state);
+}
+BENCHMARK(BM_pack_world)->Unit(benchmark::kMicrosecond);
+
 #ifdef SINEW_HAVE_CGRAPH
 // ---- libcgraph ----
 
-Agraph_t* cgraph_of_names() {
+Agraph_t* cgraph_of_names(bool name_edges = false) {
   Agraph_t* const graph = agopen(const_cast<char*>("bench"), Agdirected, nullptr);
   std::vector<Agnode_t*> nodes;
   nodes.reserve(kNodes);
   for (std::size_t i = 0; i < kNodes; ++i) {
     nodes.push_back(agnode(graph, const_cast<char*>(names().nodes[i].c_str()), 1));
-    agedge(graph, nodes[i], nodes[names().parents[i]], nullptr, 1);
+    char* const edge = name_edges ? const_cast<char*>(names().edges[i].c_str()) : nullptr;
+    agedge(graph, nodes[i], nodes[names().parents[i]], edge, 1);
   }
   return graph;
 }
@@ -166,8 +224,57 @@ void BM_cgraph_insert(benchmark::State& state) {
 }
 BENCHMARK(BM_cgraph_insert)->Unit(benchmark::kMicrosecond);
 
+void BM_cgraph_insert_named(benchmark::State& state) {
+  names();
+  for (auto _ : state) agclose(cgraph_of_names(true));
+  count(state);
+}
+BENCHMARK(BM_cgraph_insert_named)->Unit(benchmark::kMicrosecond);
+
+// Whether all sides link the same nodes, by their names; each pair of a node and what it is linked
+// to, and for the world, which knows no loop at the first node and links both ways, both.
+bool same_links(Agraph_t* theirs) {
+  using Pairs = std::vector<std::pair<std::string, std::string>>;
+  const auto sorted = [](Pairs pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  };
+  Pairs expected, expected_both, listed, packed, of_world;
+  for (Agnode_t* node = agfstnode(theirs); node; node = agnxtnode(theirs, node)) {
+    for (Agedge_t* edge = agfstout(theirs, node); edge; edge = agnxtout(theirs, edge)) {
+      expected.emplace_back(agnameof(node), agnameof(aghead(edge)));
+      if (node == aghead(edge)) continue;
+      expected_both.emplace_back(agnameof(node), agnameof(aghead(edge)));
+      expected_both.emplace_back(agnameof(aghead(edge)), agnameof(node));
+    }
+  }
+  const Inserted made;
+  const graph::Terms& terms = made.store.terms();
+  const graph::Snapshot snapshot = made.store.snapshot();
+  snapshot.match({}, made.linked, {}, graph::Dataset::kUnion, [&](const graph::Quad& quad) {
+    listed.emplace_back(terms.text(quad.subject), terms.text(quad.object));
+    return true;
+  });
+  graph::Adjacency(snapshot, made.linked, graph::Direction::kOut)
+      .visit([&](graph::Id node, std::span<const graph::Id> linked_to) {
+        for (const graph::Id id : linked_to) packed.emplace_back(terms.text(node), terms.text(id));
+      });
+  const auto world = world_of_names();
+  const world::Links links(world->state());
+  for (world::Index frame = 0; frame < links.frames(); ++frame) {
+    for (const world::Link link : links.of(frame)) {
+      of_world.emplace_back(names().nodes[frame], names().nodes[link.other]);
+    }
+  }
+  expected = sorted(std::move(expected));
+  return expected.size() == kNodes && sorted(std::move(listed)) == expected &&
+         sorted(std::move(packed)) == expected &&
+         sorted(std::move(of_world)) == sorted(std::move(expected_both));
+}
+
 void BM_cgraph_visit(benchmark::State& state) {
   Agraph_t* const graph = cgraph_of_names();
+  if (!same_links(graph)) state.SkipWithError("what is visited differs");
   for (auto _ : state) {
     std::uint64_t sum = 0;
     for (Agnode_t* node = agfstnode(graph); node; node = agnxtnode(graph, node)) {

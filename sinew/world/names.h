@@ -7,7 +7,8 @@
 #include <mutex>
 #include <string>
 #include <string_view>
-#include <unordered_map>
+
+#include "sinew/graph/slot_table.h"
 
 namespace sinew::world {
 
@@ -26,9 +27,12 @@ class Names {
   const std::string& text(Name name) const;
 
  private:
+  graph::SlotTable::Slot lookup(std::string_view text, std::uint32_t hash,
+                                std::uint32_t* at = nullptr) const;
+
   mutable std::mutex mutex_;
   std::deque<std::string> texts_{""};
-  std::unordered_map<std::string_view, std::uint32_t> numbers_;
+  graph::SlotTable numbers_;
 };
 
 }  // namespace sinew::world

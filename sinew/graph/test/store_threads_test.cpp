@@ -110,6 +110,62 @@ TEST(SnapshotThreads, TwoReadersSeeWholeVersionsOnlyWhileAWriterWrites) {
   EXPECT_GE(checks, 20);
 }
 
+// Pairs of terms that become crowded while others look between them, also by what is taken back.
+TEST(SnapshotThreads, WhatIsBetweenTwoTermsIsWholeWhileTheyBecomeCrowded) {
+  constexpr std::size_t kPairs = 150, kLinks = 40;
+  Store store;
+  Terms& terms = store.terms();
+  const Id value = terms.iri("http://x/value");
+  std::vector<Id> from, to, links, numbers;
+  for (std::size_t i = 0; i < kPairs; ++i) {
+    from.push_back(terms.iri("http://x/from" + std::to_string(i)));
+    to.push_back(terms.iri("http://x/to" + std::to_string(i)));
+  }
+  for (std::size_t i = 0; i <= kLinks; ++i) {
+    links.push_back(terms.iri("http://x/link" + std::to_string(i)));
+    numbers.push_back(terms.integer(static_cast<std::int64_t>(i)));
+  }
+  std::atomic<bool> done = false;
+  std::atomic<int> checks = 0;
+  const auto check = [&](const View& view) {
+    for (std::size_t i = 0; i < kPairs; ++i) {
+      const Id held = view.object(from[i], value);
+      const auto n = held ? static_cast<std::size_t>(*view.terms().integer_value(held)) : 0;
+      EXPECT_EQ(World::count(view, from[i], {}, to[i]), n);
+      for (std::size_t link = 0; link < n; link += 7) {
+        EXPECT_TRUE(view.contains(from[i], links[link], to[i]));
+      }
+    }
+  };
+  std::thread reader([&] {
+    while (!done || checks == 0) {
+      check(store.snapshot());
+      ++checks;
+    }
+  });
+  for (std::size_t round = 0; round < 3 * kPairs; ++round) {
+    // Each pair comes three times: uncrowded, then crowded, then with more.
+    const std::size_t i = round % kPairs;
+    const std::size_t before = round / kPairs * 13, after = before + 13;
+    Transaction transaction = store.begin();
+    const auto mark = transaction.mark();
+    for (std::size_t link = before; link < kLinks; ++link) {
+      transaction.add({from[i], links[link], to[i]});
+      transaction.add({from[i], links[link], value});
+    }
+    transaction.undo_to(mark);
+    for (std::size_t link = before; link < after; ++link) {
+      transaction.add({from[i], links[link], to[i]});
+    }
+    if (before > 0) transaction.remove({from[i], value, numbers[before]});
+    transaction.add({from[i], value, numbers[after]});
+    transaction.commit();
+  }
+  done = true;
+  reader.join();
+  check(store.view());
+}
+
 TEST(TransactionThreads, ASecondWriterWaitsForTheFirst) {
   Store store;
   const Id a = store.terms().iri("http://x/a");
