@@ -379,7 +379,8 @@ const Verb kVerbs[] = {
 int run_world(Arguments arguments) {
   CLI::App app(
       "A scene from models, and what it answers.\n\n"
-      "Frames, objects and measurements are named by IRI, by label, or by what follows the "
+      "Frames (or what is attached to them), areas and measurements are named by IRI, by label, or "
+      "by what follows the "
       "last '#' or '/' of the IRI.",
       "sinew world");
   app.require_subcommand(1);

@@ -157,7 +157,16 @@ world::FrameId LoadedScene::frame(const std::string& name) const {
   for (Index i = 0; i < state.frames.size(); ++i) {
     if (state.frames[i].alive) iris.push_back(world.name(world::FrameId{i}));
   }
-  return world.find_frame(find(name, iris, declared.labels, "frame"));
+  // An object stands for the frame that it is attached to.
+  std::map<std::string, world::FrameId> of_object;
+  for (Index i = 0; i < state.objects.size(); ++i) {
+    if (!state.objects[i].alive) continue;
+    iris.push_back(world.name(world::ObjectId{i}));
+    of_object[iris.back()] = {state.objects[i].frame};
+  }
+  const std::string found = find(name, iris, declared.labels, "frame or object");
+  const auto object = of_object.find(found);
+  return object == of_object.end() ? world.find_frame(found) : object->second;
 }
 
 world::MeasurementId LoadedScene::measurement(const std::string& name) const {

@@ -256,10 +256,15 @@ struct SceneReader {
     if (!reader.is_a(of, reader.ids.frame) || !reader.is_a(to, reader.ids.frame)) {
       // Poses of links and simplices are other modules' business, unless somebody measures them.
       if (!measurements.empty() || stated) {
-        reader.error(node,
-                     reader.is_a(of, reader.ids.frame) ? reader.ids.with_respect_to : reader.ids.of,
-                     "a pose that is not between two frames",
-                     "of, and with-respect-to: each a Frame of these models");
+        const bool of_frame = reader.is_a(of, reader.ids.frame);
+        reader.error(
+            node, of_frame ? reader.ids.with_respect_to : reader.ids.of,
+            "a pose that is not between two frames: " +
+                (of_frame ? (to ? text(to) : "with-respect-to")
+                 : of     ? text(of)
+                          : "of") +
+                (of_frame ? (to ? " is none" : " is missing") : (of ? " is none" : " is missing")),
+            "of, and with-respect-to: each a Frame of these models");
       }
       return;
     }

@@ -159,6 +159,8 @@ TEST(WorldCommand, TheDocumentedSceneAnswersAsDocumented) {
   const std::string pose = ask("pose", {"--of", "at-red", "--wrt", "at-table", "--now", "10.2"});
   EXPECT_THAT(pose, HasSubstr("position    0.3 -0.2 "));
   EXPECT_THAT(pose, HasSubstr("holds for another 0.3 s"));
+  // An object stands for its frame.
+  EXPECT_EQ(ask("pose", {"--of", "red-box", "--wrt", "table", "--now", "10.2"}), pose);
   EXPECT_EQ(ask("relations", {"--relation", "on"}), "blue-box on table\nred-box on table\n");
   EXPECT_EQ(ask("within", {"--area", "right half of the table", "--inside"}),
             "http://lab.example/red-box\nhttp://lab.example/blue-box\n");
@@ -175,7 +177,7 @@ TEST(WorldCommand, SaysWhatItDoesAndWhatIsMissing) {
   EXPECT_EQ(ask("pose", {"--of", "F2"}).exit_code, 2);
   const Result unknown = ask("pose", {"--of", "F9", "--wrt", "F1"});
   EXPECT_EQ(unknown.exit_code, 1);
-  EXPECT_THAT(unknown.err, HasSubstr("F9: is no frame of this scene; one of F0"));
+  EXPECT_THAT(unknown.err, HasSubstr("F9: is no frame or object of this scene; one of F0"));
   const Result numbers =
       ask("pose", {"--of", "F2", "--wrt", "F1", "--write", "measured-F2-F3=1,2,3@2"});
   EXPECT_EQ(numbers.exit_code, 1);
