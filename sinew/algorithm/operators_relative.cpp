@@ -37,6 +37,19 @@ constexpr OperatorRow kRows[] = {
      "to.wrt = from.wrt",
      "al_A = R al_B, a_A = R a_B"},
 
+    // A twist by way of its Jacobian, where how the body turns is known already: the first has no
+    // linear
+    // part yet, the second adds that of one joint.
+    {"turning-seen-from-proximal", SINEW_OWN "turning-seen-from-proximal",
+     "pose:pose from:velocity-twist -> to:velocity-twist",
+     "from.seen = pose.of; to.seen = pose.wrt; to.ref = from.ref; to.of = from.of; "
+     "to.wrt = from.wrt",
+     "w_A = R w_B, v_A = 0"},
+    {"add-linear-motion-of-column", SINEW_OWN "add-linear-motion-of-column",
+     "twist:velocity-twist column:jacobian-column velocity:joint-velocity -> with:velocity-twist",
+     "column.at = twist.at; with.at = twist.at; with.of = twist.of; with.wrt = twist.wrt",
+     "v + J_v qd"},
+
     // Columns of Jacobians: of a point that moves with F, and of the same point as it would move
     // with G. `between` is the pose of F with respect to G.
     {"jacobian-column-between", SINEW_OWN "jacobian-column-between",

@@ -35,6 +35,19 @@ AccelerationTwist<S> derivative_seen_by(const AccelerationTwist<S>& A, const Vel
   return {A.angular - cross(O.angular, V.angular), A.linear - cross(O.angular, V.linear)};
 }
 
+// How a twist turns, seen from A instead of B: (R omega, 0).
+template <typename S>
+VelocityTwist<S> turning_seen_from_proximal(const Pose<S>& X_AB, const VelocityTwist<S>& V_B) {
+  return {X_AB.R * V_B.angular, {S(0), S(0), S(0)}};
+}
+
+// What one joint adds to the velocity of a point: v + J_v qd. How the point turns is left.
+template <typename S>
+VelocityTwist<S> add_linear_motion_of_column(const VelocityTwist<S>& V, const VelocityTwist<S>& J,
+                                             const S& qd) {
+  return {V.angular, V.linear + qd * J.linear};
+}
+
 template <typename S>
 JacobianBlock<S> subtract(const JacobianBlock<S>& a, const JacobianBlock<S>& b) {
   JacobianBlock<S> block;

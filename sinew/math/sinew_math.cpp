@@ -3,28 +3,15 @@
 #include "sinew/math/sinew_math.h"
 
 #include "sinew/math/articulated_inertia.h"
+#include "sinew/math/c_arrays.h"
 #include "sinew/math/floating.h"
 #include "sinew/math/inertia.h"
 #include "sinew/math/jacobian.h"
 #include "sinew/math/joint.h"
-#include "sinew/math/layout.h"
 #include "sinew/math/momentum.h"
 
-namespace {
-
 using namespace sinew::math;
-
-template <template <typename> typename T>
-T<double> load(const double* at) {
-  return Layout<T<double>>::load(at);
-}
-
-template <typename T>
-void store(const T& value, double* at) {
-  Layout<T>::store(value, at);
-}
-
-}  // namespace
+using namespace sinew::math::c_arrays;
 
 // clang-format off
 void sinew_position_to_pose_revolute(const double* q, double* X) { store(revolute_pose(*q), X); }

@@ -1,23 +1,10 @@
 #include "sinew/math/sinew_math_control.h"
 
+#include "sinew/math/c_arrays.h"
 #include "sinew/math/control.h"
-#include "sinew/math/layout.h"
-
-namespace {
 
 using namespace sinew::math;
-
-template <template <typename> typename T>
-T<double> load(const double* at) {
-  return Layout<T<double>>::load(at);
-}
-
-template <typename T>
-void store(const T& value, double* at) {
-  Layout<T>::store(value, at);
-}
-
-}  // namespace
+using namespace sinew::math::c_arrays;
 
 void sinew_position_along(const double* axis, const double* X, double* out) {
   store(dot(load<Vector3>(axis), load<Pose>(X).p), out);

@@ -1,16 +1,12 @@
 #include "sinew/math/sinew_math_joints.h"
 
+#include "sinew/math/c_arrays.h"
 #include "sinew/math/compound_joint.h"
-#include "sinew/math/layout.h"
 
 namespace {
 
 using namespace sinew::math;
-
-template <typename T>
-void store(const T& value, double* at) {
-  Layout<T>::store(value, at);
-}
+using namespace sinew::math::c_arrays;
 
 // Numbers may come in one array or in one each.
 void weighted_sum(const double* const in[], int count, double* out) {

@@ -1,23 +1,10 @@
 #include "sinew/math/sinew_math_relative.h"
 
-#include "sinew/math/layout.h"
+#include "sinew/math/c_arrays.h"
 #include "sinew/math/relative_motion.h"
 
-namespace {
-
 using namespace sinew::math;
-
-template <template <typename> typename T>
-T<double> load(const double* at) {
-  return Layout<T<double>>::load(at);
-}
-
-template <typename T>
-void store(const T& value, double* at) {
-  Layout<T>::store(value, at);
-}
-
-}  // namespace
+using namespace sinew::math::c_arrays;
 
 void sinew_subtract_velocity_twist(const double* V_F, const double* V_G, double* V) {
   store(subtract(load<VelocityTwist>(V_F), load<VelocityTwist>(V_G)), V);
@@ -41,6 +28,15 @@ void sinew_derivative_seen_by_observer(const double* A, const double* V, const d
 void sinew_rotate_spatial_acceleration_twist_to_proximal(const double* X, const double* A_B,
                                                          double* A_A) {
   store(rotate_to_proximal(load<Pose>(X), load<AccelerationTwist>(A_B)), A_A);
+}
+
+void sinew_turning_seen_from_proximal(const double* X, const double* V_B, double* V_A) {
+  store(turning_seen_from_proximal(load<Pose>(X), load<VelocityTwist>(V_B)), V_A);
+}
+
+void sinew_add_linear_motion_of_column(const double* V, const double* J, const double* qd,
+                                       double* V_with) {
+  store(add_linear_motion_of_column(load<VelocityTwist>(V), load<VelocityTwist>(J), *qd), V_with);
 }
 
 void sinew_jacobian_column_between(const double* /*X*/, const double* moved, const double* moving,

@@ -16,6 +16,11 @@ void sinew_derivative_seen_by_observer(const double A[6], const double V[6],
 void sinew_rotate_spatial_acceleration_twist_to_proximal(const double X[12], const double A_B[6],
                                                          double A_A[6]);
 
+/* How B turns, seen from A: (R w, 0); and a twist with the linear part of J qd added. */
+void sinew_turning_seen_from_proximal(const double X[12], const double V_B[6], double V_A[6]);
+void sinew_add_linear_motion_of_column(const double V[6], const double J[6], const double qd[1],
+                                       double V_with[6]);
+
 /* Columns of Jacobians; X is the pose of the one frame with respect to the other. */
 void sinew_jacobian_column_between(const double X[12], const double moved[6],
                                    const double moving[6], double J[6]);

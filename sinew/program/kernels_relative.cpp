@@ -28,6 +28,14 @@ std::vector<Kernel> kernels_of_relative_motion() {
           []<typename S>(const Pose<S>& X, const AccelerationTwist<S>& A) {
             return rotate_to_proximal(X, A);
           }),
+      row("turning-seen-from-proximal",
+          []<typename S>(const Pose<S>& X, const VelocityTwist<S>& V) {
+            return turning_seen_from_proximal(X, V);
+          }),
+      row("add-linear-motion-of-column",
+          []<typename S>(const VelocityTwist<S>& V, const VelocityTwist<S>& J, const S& qd) {
+            return add_linear_motion_of_column(V, J, qd);
+          }),
       row("jacobian-column-between",
           []<typename S>(const Pose<S>&, const VelocityTwist<S>& moved,
                          const VelocityTwist<S>& moving) { return subtract(moved, moving); }),
