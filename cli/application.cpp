@@ -186,6 +186,7 @@ std::vector<std::uint32_t> set_points(const program::HostPlan& plan) {
 program::HostPlan plan_of(Models& models, const ModelOptions& files, const QueryOptions& query,
                           const LiveOptions& options, bool needs_robot) {
   const graph::Id algorithm = algorithm_of(models, files, query);
+  note_held(lowered(models, algorithm, "held"));
   const graph::View view = models.store.view();
   if (!algorithm::has_robot(view, algorithm) &&
       (needs_robot || algorithm::speaks_of_joints(view, algorithm))) {

@@ -92,6 +92,7 @@ int run_bench(Arguments arguments) {
   const Clock::time_point start = Clock::now();
   const auto models = load(models_options);
   const program::Program program = program_of(*models, models_options, query, "");
+  note_held(program);
   const double to_program_ms = since_ms(start);
 
   backend::COptions options;

@@ -65,6 +65,12 @@ void add_query_options(CLI::App& app, QueryOptions& options) {
       "--stationary-frames", options.stationary_frames,
       "Acceleration twists of the body at the point in space where the frame is (spatial), "
       "not of the frame's origin");
+  app.add_option("--hold", options.hold,
+                 "Had at a lower rate than the rest: 'QUANTITY [of ELEMENT]', given, asked or "
+                 "computed on the way; generated code gets an update for it, 'run' and 'bench' "
+                 "compute it anew each time; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
   app.add_option("--constraint", options.constraints,
                  "FRAME:DIRECTION,...[@base|@itself]: the frame's acceleration is imposed in these "
                  "directions (linear-x ... angular-z, or so many unit forces as inputs) of the "

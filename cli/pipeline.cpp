@@ -57,8 +57,14 @@ catalogue::Catalogue catalogue_of(const ModelOptions& files) {
 
 // What the command line says in addition to a query.
 void add_options(synthesis::Query& query, const QueryOptions& options) {
-  if (!options.base.empty()) query.base = options.base;
-  if (!options.tips.empty()) query.tips = options.tips;
+  if (!options.base.empty()) {
+    query.base = options.base;
+    query.base_origin = {};
+  }
+  if (!options.tips.empty()) {
+    query.tips = options.tips;
+    query.tips_origin = {};
+  }
   if (options.gravity == "input") {
     for (synthesis::Given& given : query.given) given.varies |= given.quantity == "gravity";
   } else if (!options.gravity.empty()) {
@@ -67,6 +73,7 @@ void add_options(synthesis::Query& query, const QueryOptions& options) {
   if (options.floating) query.floating = true;
   if (options.forces_apart) query.forces = synthesis::Forces::kApart;
   if (options.stationary_frames) query.frames = synthesis::Frames::kStationary;
+  for (const std::string& text : options.hold) query.held.push_back(parse_held(text));
   apply_driver_options(options, query);
 }
 
@@ -209,6 +216,17 @@ program::Program program_of(Models& models, const ModelOptions& files, const Que
 
 program::Program lowered(const Models& models, graph::Id algorithm, const std::string& name) {
   return program::lower(models.store.view(), algorithm, name, &models.places);
+}
+
+void note_held(const program::Program& program) {
+  std::string names;
+  for (const program::Variable& variable : program.variables)
+    if (variable.held && variable.role == program::Role::kInternal)
+      names += (names.empty() ? "" : ", ") + variable.name;
+  if (!names.empty())
+    print_note("the query holds " + names +
+               " between updates: here it is computed anew each time; code of 'sinew generate' "
+               "has the update");
 }
 
 std::unique_ptr<Models> load(const ModelOptions& options) {

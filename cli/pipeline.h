@@ -44,6 +44,10 @@ program::Program program_of(Models& models, const ModelOptions& files, const Que
 
 program::Program lowered(const Models& models, graph::Id algorithm, const std::string& name);
 
+// Tells, on standard error, that what a query holds between updates is computed anew each time
+// here.
+void note_held(const program::Program& program);
+
 // "robots/arm.urdf, solver rnea": for banners and reports.
 std::string describe(const ModelOptions& files, const QueryOptions& query);
 

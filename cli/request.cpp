@@ -70,6 +70,11 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& op
   }
 }
 
+synthesis::Held parse_held(const std::string& text) {
+  auto parts = phrase(text, "--hold", "QUANTITY [of ELEMENT]");
+  return {parts[""], parts["of"]};
+}
+
 std::array<double, 3> parse_vector3(const std::string& text, const std::string& option) {
   std::array<double, 3> values{};
   std::size_t count = 0;

@@ -31,6 +31,7 @@ struct QueryOptions {
   bool floating = false;
   bool forces_apart = false;
   bool stationary_frames = false;
+  std::vector<std::string> hold = {};  // each as parse_held has it
 
   // Drivers and policies beside those of the query (driver_options.cpp has their grammar).
   std::vector<std::string> constraints;  // "FRAME:linear-z,angular-x[@base|@itself]"
@@ -44,6 +45,8 @@ struct QueryOptions {
 synthesis::Asked parse_asked(const std::string& text);
 // "QUANTITY [of ELEMENT] [seen-by FRAME]"; of every joint where a quantity of joints is of none.
 synthesis::Given parse_given(const std::string& text);
+// "QUANTITY [of ELEMENT]"
+synthesis::Held parse_held(const std::string& text);
 
 // "1" or "1,2,3": finite numbers, at least one; throws Error naming `option` otherwise.
 std::vector<double> parse_numbers(const std::string& text, const std::string& option);

@@ -72,6 +72,7 @@ int run_run(Arguments arguments) {
   const Table rows = read_csv(read_input(input), input);
   const auto models = load(models_options);
   const program::Program program = program_of(*models, models_options, query, "");
+  note_held(program);
 
   // Where nothing can be compiled the interpreter gives the same results, only later.
   How how = interpret ? How::kInterpreted : How::kCompiled;

@@ -55,10 +55,10 @@ Json ask(Models& models, graph::Id algorithm, const std::string& text) {
   return rows;
 }
 
-program::OperationCount operations_of(const program::Program& program) {
+backend::GeneratedCode generated(const program::Program& program) {
   backend::COptions options;
   options.name = program.name;
-  return backend::generate_c(program, options).operations;
+  return backend::generate_c(program, options);
 }
 
 Json as_json(const program::OperationCount& operations) {
@@ -110,7 +110,7 @@ std::vector<std::pair<std::string, program::OperationCount>> apart(Models& model
     if (query.asked.empty()) continue;  // it only gives more to the others
     const std::string name = query.name;
     const graph::Id algorithm = algorithm_of(models, query_of({std::move(query)}, options));
-    programs.emplace_back(name, operations_of(lowered(models, algorithm, "statistics")));
+    programs.emplace_back(name, generated(lowered(models, algorithm, "statistics")).operations);
   }
   return programs;
 }
@@ -184,7 +184,10 @@ int run_stats(Arguments arguments) {
   }
   const program::Program program = lowered(*models, algorithm, "statistics");
   const program::Program live = program::without_dead_closures(program);
-  const program::OperationCount operations = operations_of(program);
+  const backend::GeneratedCode code = generated(program);
+  const program::OperationCount& operations = code.operations;
+  const bool holds = std::any_of(program.variables.begin(), program.variables.end(),
+                                 [](const program::Variable& v) { return v.held; });
 
   std::size_t memory = 0;
   for (const program::Variable& variable : live.variables) memory += variable.size * sizeof(double);
@@ -199,6 +202,7 @@ int run_stats(Arguments arguments) {
       {"inputs", interface.in_size},      {"outputs", interface.out_size},
       {"state", interface.state_size}};
   report["operations"] = as_json(operations);
+  if (holds) report["operations of an update"] = as_json(code.update);
   if (const auto programs = apart(*models, models_options, query); programs.size() > 1) {
     report["adds and multiplies of each asked apart"] =
         compared(programs, operations, adds_and_multiplies);

@@ -189,6 +189,7 @@ void Builder::finish() {
   for (const Block& block : algorithm_.blocks) {
     add(block.id, names_.name, terms_.literal(block.name));
     if (block.output) add(block.id, names_.output, names_.true_literal);
+    if (block.held) add(block.id, names_.held, names_.true_literal);
     if (block.index != kNoIndex) add(block.id, names_.index, terms_.integer(block.index));
   }
   const Id schedule = terms_.derived(names_.schedule_type, {algorithm_.id});

@@ -65,6 +65,10 @@ class Builder {
   // Hands a block out, after the outputs so far; under another name than its own, if one is given.
   void output(std::uint32_t block, std::string_view name = {});
 
+  // Says that a block changes at a lower rate than the rest (Block::held). An input, or what a
+  // closure computes.
+  void hold(std::uint32_t block) { algorithm_.blocks[block].held = true; }
+
   // Gives a block another name, which nothing else may have. Before finish().
   void rename(std::uint32_t block, std::string name);
 

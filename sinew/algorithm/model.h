@@ -42,6 +42,7 @@ struct Block {
   std::string unit;  // SI, QUDT names, space separated
   Role role = Role::kInternal;
   bool output = false;
+  bool held = false;  // an input that changes slowly; or keeps its value from update to update
   std::uint32_t index = kNoIndex;  // place among the inputs, or among the outputs
   std::uint32_t size = 0;
   std::vector<double> value;           // of constants, and first value of states

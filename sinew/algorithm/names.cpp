@@ -1,5 +1,7 @@
 #include "sinew/algorithm/names.h"
 
+#include "sinew/graph/percent_encoding.h"
+
 namespace sinew::algorithm {
 namespace {
 
@@ -36,6 +38,7 @@ Names::Names(graph::Terms& terms) {
   represents = sa("represents");
   role = sa("role");
   output = sa("output");
+  held = sa("held");
   size = sa("size");
   step = sa("step");
   about = sa("about");
@@ -52,6 +55,12 @@ Names::Names(graph::Terms& terms) {
 std::string_view short_name(std::string_view iri) {
   const std::size_t at = iri.find_last_of("#/:");
   return at == std::string_view::npos || at + 1 == iri.size() ? iri : iri.substr(at + 1);
+}
+
+bool is_called(std::string_view iri, std::string_view name) {
+  const std::string_view own = short_name(iri);
+  return own == name ||
+         (own.find('%') != std::string_view::npos && graph::percent_decoded(own) == name);
 }
 
 }  // namespace sinew::algorithm

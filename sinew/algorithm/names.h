@@ -31,7 +31,7 @@ struct Names {
   graph::Id type, first, rest, nil;
   graph::Id algorithm, data, closure, schedule;       // sa:
   graph::Id data_block, quantity, slot, name, index;  // sa:
-  graph::Id represents, role, output, size;           // sa:
+  graph::Id represents, role, output, held, size;     // sa:
   graph::Id step, about;                              // sa:
   std::array<graph::Id, kRoles> roles;                // sa:input ...
   std::array<graph::Id, kAttributes> symbols;         // sa:of ...
@@ -43,5 +43,8 @@ struct Names {
 
 // The last segment of an IRI (after the last '#', '/' or ':'), which names it to people.
 std::string_view short_name(std::string_view iri);
+// Whether people call it that: by its short name, or by what that stands for ("base link" for
+// "base%20link").
+bool is_called(std::string_view iri, std::string_view name);
 
 }  // namespace sinew::algorithm

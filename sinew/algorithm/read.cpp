@@ -134,6 +134,7 @@ class Reader {
                       : block.quantity->size;
     const Id output = one(id, word_.sa("output"), "sa:output");
     block.output = output && text(output) == "true";
+    read_held(block);
     if (const Id index = one(id, word_.sa("index"), "sa:index"))
       block.index = static_cast<std::uint32_t>(terms_.integer_value(index).value_or(kNoIndex));
     if (const Id head = one(id, word_(kTreeNamespace, "value"), "tree:value")) {
@@ -198,6 +199,14 @@ class Reader {
       rule.factor_unit = short_name(text(unit));
     }
     block.at_swap = rule;
+  }
+
+  void read_held(Block& block) {
+    const Id held = one(block.id, word_.sa("held"), "sa:held");
+    block.held = held && text(held) == "true";
+    if (block.held && block.role != Role::kInput && block.role != Role::kInternal)
+      error(block.id, fmt::format("a {} that is held", to_string(block.role)),
+            "hold inputs and what closures compute");
   }
 
   // A quantity of several units has several triples; their order is the quantity's own.

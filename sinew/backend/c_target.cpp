@@ -180,7 +180,9 @@ std::vector<std::string> variable_identifiers(const program::Program& program) {
   return names;
 }
 
-GeneratedCode generate_c(const program::Program& program, const COptions& options) {
+GeneratedCode generate_c(const program::Program& program, const COptions& asked) {
+  COptions options = asked;
+  options.partial = program::with_held(program, asked.partial);
   if (!is_c_function_name(options.name)) {
     throw Error(Problem{{},
                         {},

@@ -44,7 +44,8 @@ struct COptions {
   Language language = Language::kC;
   Trigonometry trigonometry = Trigonometry::kOwn;
   program::OptimiseOptions passes = {};
-  program::PartialOptions partial = {};  // flat style only: what NAME_update computes
+  // Flat style only: what NAME_update computes, beside what the program itself says to be held.
+  program::PartialOptions partial = {};
   // Limbs that are alike are computed side by side where that pays (program/limbs), in single calls
   // of flat C.
   bool limbs = true;

@@ -1,5 +1,7 @@
 #include "sinew/model/names.h"
 
+#include "sinew/graph/percent_encoding.h"
+
 namespace sinew::model {
 
 std::string_view last_segment(std::string_view iri) {
@@ -15,7 +17,8 @@ Match find_by_name(const graph::Terms& terms, std::string_view name,
     for (const graph::Id element : group) {
       const std::string_view text = terms.text(element);
       if (text == name) return {element, {element}};
-      if (last_segment(text) == name) match.candidates.push_back(element);
+      const std::string_view own = last_segment(text);
+      if (own == name || graph::percent_decoded(own) == name) match.candidates.push_back(element);
     }
     if (!match.candidates.empty()) break;
   }

@@ -1,4 +1,5 @@
-// Finding the elements of a model by name: an IRI, or the last segment of one.
+// Finding the elements of a model by name: an IRI, or the last segment of one, also as it was
+// before it was percent-encoded.
 #pragma once
 
 #include <string>

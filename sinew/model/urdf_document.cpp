@@ -136,7 +136,10 @@ class Reader {
           fmt::format("{}=\"{}\" of <{}> is not {}", name, text, element->Name(),
                       values.size() == 1 ? "a finite number"
                                          : fmt::format("{} finite numbers", values.size())),
-          values.size() == 1 ? "write one number" : "write the numbers with spaces between them");
+          std::string_view(text).find("${") != std::string_view::npos
+              ? "process the file with xacro first"
+          : values.size() == 1 ? "write one number"
+                               : "write the numbers with spaces between them");
     for (double* value : values) *value = 0;
     return false;
   }

@@ -42,6 +42,7 @@ Variable variable_of(const graph::Terms& terms, const algorithm::Block& block) {
   if (block.size > 1) variable.frame = text(terms, frame_of(block));
   variable.role = role_of(block.role);
   variable.output = block.output;
+  variable.held = block.held;
   variable.size = block.size;
   variable.value = block.value;
   return variable;

@@ -99,6 +99,16 @@ void drop_unread(Hoisted& parts, std::uint32_t first) {
 
 }  // namespace
 
+PartialOptions with_held(const Program& program, PartialOptions options) {
+  for (const Variable& variable : program.variables) {
+    if (!variable.held) continue;
+    std::vector<std::string>& names = variable.role == Role::kInput ? options.slow : options.held;
+    if (std::find(names.begin(), names.end(), variable.name) == names.end())
+      names.push_back(variable.name);
+  }
+  return options;
+}
+
 Hoisted trace_in_parts(const Program& program, const PartialOptions& options) {
   const std::vector<bool> slow_variable = named(
       program, options.slow, [](const Variable& v) { return v.role == Role::kInput; },

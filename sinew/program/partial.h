@@ -25,10 +25,14 @@ struct PartialOptions {
   bool empty() const { return slow.empty() && held.empty(); }
 };
 
+// These, and the variables that the program itself says to be held (a query's policy), by their
+// names: inputs are slow.
+PartialOptions with_held(const Program& program, PartialOptions options);
+
 // The program in two computations, as in hoist.h; inputs and results of `evaluate` are those of
 // trace.h, with the kept values behind the inputs and states. Precondition: the program is valid.
-// Throws Error for a name that fits no input (slow) or nothing that is computed (held), and for derivatives
-// of results that something held goes into.
+// Throws Error for a name that fits no input (slow) or nothing that is computed (held), and for
+// derivatives of results that something held goes into.
 Hoisted trace_in_parts(const Program& program, const PartialOptions& options);
 
 }  // namespace sinew::program

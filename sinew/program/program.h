@@ -27,6 +27,7 @@ struct Variable {
   bool output = false;        // handed back to the caller after each evaluation
   std::uint32_t size = 0;     // numbers
   std::vector<double> value;  // kConstant, kState: `size` numbers; otherwise empty
+  bool held = false;          // changes at a lower rate, as partial.h says of slow and held ones
 };
 
 struct Closure {

@@ -150,8 +150,12 @@ Variable read_variable(const Json& json, const std::string& file, std::size_t nu
       v.value.push_back(number_json.get<double>());
     }
   }
-  object.finish({"name", "iri", "represents", "quantity", "unit", "frame", "role", "output", "size",
-                 "value"});
+  v.held = json.contains("held") && object.flag("held");
+  if (v.held && v.role != Role::kInput && v.role != Role::kInternal)
+    object.fault(fmt::format("is held, but its role is {}", role),
+                 "hold inputs and what closures compute");
+  object.finish({"name", "iri", "represents", "quantity", "unit", "frame", "role", "output", "held",
+                 "size", "value"});
   return v;
 }
 
@@ -233,6 +237,7 @@ std::string to_json(const Program& program) {
                  {"role", kRoles[static_cast<std::size_t>(v.role)]},
                  {"output", v.output},
                  {"size", v.size}};
+    if (v.held) json["held"] = true;
     if (v.role == Role::kConstant || v.role == Role::kState) json["value"] = v.value;
     variables.push_back(std::move(json));
   }

@@ -41,6 +41,7 @@ Query combined(std::span<const Query> queries) {
     }
     add_each_once(all.asked, query.asked);
     add_each_once(all.given, query.given);
+    add_each_once(all.held, query.held);
     agree(all.base, query.base, {}, "base", query);
     agree(all.gravity, query.gravity, {}, "gravity", query);
     agree(all.sweeps, query.sweeps, {}, "sweep configuration", query);
@@ -50,6 +51,8 @@ Query combined(std::span<const Query> queries) {
     agree(all.frames, query.frames, Frames::kMoving, "policy for frames", query);
     agree(all.drivers, query.drivers, {}, "policy for drivers", query);
     agree(all.task, query.task, {}, "task", query);
+    if (!query.base.empty()) all.base_origin = query.base_origin;
+    if (!query.tips.empty()) all.tips_origin = query.tips_origin;
     all.regroup = all.regroup && query.regroup;
   }
   return all;

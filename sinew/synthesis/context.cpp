@@ -142,11 +142,19 @@ Id pair_of(graph::Terms& terms, Id a, Id b) {
 Id Context::pair(Id a, Id b) { return pair_of(builder.terms(), a, b); }
 
 std::vector<double> Context::numbers(Id coordinate) const {
+  return coordinate_numbers(view, coordinate);
+}
+
+std::vector<double> coordinate_numbers(const graph::View& view, Id coordinate) {
+  const graph::Terms& terms = view.terms();
+  const Id value = terms.find_iri(std::string(algorithm::kTreeNamespace) + "value");
+  const std::string rdf = "http://www.w3.org/1999/02/22-rdf-syntax-ns#";
+  const Id first = terms.find_iri(rdf + "first"), rest = terms.find_iri(rdf + "rest"),
+           nil = terms.find_iri(rdf + "nil");
   std::vector<double> result;
-  const algorithm::Names& names = builder.names();
-  for (Id node = view.object(coordinate, names.value); node && node != names.nil;
-       node = view.object(node, names.rest))
-    result.push_back(view.terms().number(view.object(node, names.first)).value());
+  for (Id node = view.object(coordinate, value); node && node != nil;
+       node = view.object(node, rest))
+    result.push_back(terms.number(view.object(node, first)).value());
   return result;
 }
 

@@ -73,7 +73,7 @@ struct Context {
   // Of each body: mass, first moment, rotational inertia; as stated, or regrouped (regroup.h).
   std::unordered_map<Id, std::array<double, 10>> inertias = {};
   std::vector<ExternalWrench> wrenches = {};
-  std::vector<Relation> relations = {};  // motions that are asked for between any two frames
+  std::vector<Relation> relations = {};       // motions that are asked for between any two frames
   const Control* control = nullptr;           // the task's, where there is one
   std::vector<BlockIndex> task_outputs = {};  // flags, events and control signals
   MotionDrivers drivers = {};  // acceleration constraints, external wrenches, groups of drivers
@@ -112,5 +112,7 @@ struct Context {
   // The numbers of a coordinate of the normalised tree.
   std::vector<double> numbers(Id coordinate) const;
 };
+
+std::vector<double> coordinate_numbers(const graph::View& view, Id coordinate);
 
 }  // namespace sinew::synthesis

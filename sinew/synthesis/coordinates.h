@@ -1,7 +1,8 @@
 // A robot's coordinates: the numbers by which a user moves it. Most are the positions of the tree's
 // joints themselves. A joint of several degrees of freedom has one data block for all its numbers,
 // and joints that follow others have none. Steps know the tree's joints only: inputs are handed out
-// to these before the first sweep, and results gathered from them after the last.
+// to these before the first sweep (here), and results gathered from them after the last
+// (results.h).
 #pragma once
 
 #include <string_view>
@@ -27,21 +28,7 @@ Coordinate find_coordinate(const graph::View& view, const Robot& robot, std::str
 // slot of every joint of the tree.
 void make_coordinate_inputs(Context& context, std::string_view slot);
 
-// The number of a coordinate's joint forces, accelerations, …: as a user sees them. `joint` is the
-// coordinate's.
-BlockIndex gathered(Context& context, std::string_view slot, Id joint);
-
-// The force of one joint of the tree with its share of those that follow it, in a slot that steps
-// have filled.
-BlockIndex coupled_force(Context& context, std::string_view slot, std::size_t joint);
-
 // That slot of every joint of the tree from the numbers of all coordinates, one after the other.
 void take_all(Context& context, std::string_view slot, BlockIndex numbers);
-
-// A matrix that the steps have filled for the joints of the tree, for the coordinates instead.
-BlockIndex coupled_matrix(Context& context, BlockIndex matrix);
-
-// Makes a result an output, after gathering and coupling. `name`: instead of the block's own.
-void hand_out(Context& context, std::string_view slot, Id element, std::string_view name);
 
 }  // namespace sinew::synthesis

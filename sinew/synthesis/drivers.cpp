@@ -8,6 +8,7 @@
 #include "sinew/synthesis/control.h"
 #include "sinew/synthesis/coordinates.h"
 #include "sinew/synthesis/joint_edge.h"
+#include "sinew/synthesis/query_faults.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -20,6 +21,10 @@ bool gives(const Query& query, std::string_view quantity) {
 }
 
 void check(const Query& query, Report& report) {
+  const auto refuse = [&](const Given& given, std::string about, std::string what,
+                          std::string remedy) {
+    report.add(fault_in(query, given.origin, std::move(about), std::move(what), std::move(remedy)));
+  };
   for (std::size_t i = 0; i < query.given.size(); ++i) {
     const Given& given = query.given[i];
     const GivenQuantity* row = find_given(given.quantity);
@@ -27,19 +32,18 @@ void check(const Query& query, Report& report) {
       std::string known;
       for (const GivenQuantity& one : given_quantities())
         known += (known.empty() ? "" : ", ") + std::string(one.name);
-      report.error({}, "", fmt::format("there is no driver {}", given.quantity), "one of " + known);
+      refuse(given, "", fmt::format("there is no driver {}", given.quantity), "one of " + known);
       continue;
     }
     if (row->element == Element::kJoint && !given.of.empty() && given.of != kEveryJoint)
-      report.error({}, given.of, fmt::format("{} is given for one joint alone", given.quantity),
-                   "give it for " + std::string(kEveryJoint));
+      refuse(given, given.of, fmt::format("{} is given for one joint alone", given.quantity),
+             "give it for " + std::string(kEveryJoint));
     if (given.varies && given.quantity != "gravity")
-      report.error({}, given.of, fmt::format("{} that varies", given.quantity),
-                   "only gravity can be stated to vary; every other driver does anyway");
+      refuse(given, given.of, fmt::format("{} that varies", given.quantity),
+             "only gravity can be stated to vary; every other driver does anyway");
     for (std::size_t j = 0; j < i; ++j)
       if (query.given[j].quantity == given.quantity && row->element != Element::kFrame)
-        report.error({}, given.of, fmt::format("{} is given twice", given.quantity),
-                     "give it once");
+        refuse(given, given.of, fmt::format("{} is given twice", given.quantity), "give it once");
   }
   for (const Given& force : query.given)
     for (const Given& acceleration : query.given) {
@@ -47,11 +51,11 @@ void check(const Query& query, Report& report) {
           force.of != acceleration.of)
         continue;
       const bool all = force.of.empty() || force.of == kEveryJoint;
-      report.error({}, all ? "" : force.of,
-                   fmt::format("both the force and the acceleration of {} are given: they "
-                               "contradict each other",
-                               all ? "every joint" : "this joint"),
-                   "give one of them; the other can be asked");
+      refuse(acceleration, all ? "" : force.of,
+             fmt::format("both the force and the acceleration of {} are given: they "
+                         "contradict each other",
+                         all ? "every joint" : "this joint"),
+             "give one of them; the other can be asked");
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "sinew/algorithm/names.h"
 #include "sinew/math/constraint_solve.h"
+#include "sinew/synthesis/query_faults.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -65,7 +66,11 @@ class Resolver {
   }
 
   void refuse(const Given& given, std::string what, std::string remedy) {
-    report_.error({}, name_of(given), std::move(what), std::move(remedy));
+    report_.add(fault_in(query_, given.origin, name_of(given), std::move(what), std::move(remedy)));
+  }
+
+  void refuse(const Origin& origin, std::string about, std::string what, std::string remedy) {
+    report_.add(fault_in(query_, origin, std::move(about), std::move(what), std::move(remedy)));
   }
 
   std::optional<DrivenFrame> find(const Given& given) {
@@ -196,33 +201,33 @@ class Resolver {
     if (count == 0) return;
     const DriverPolicy& policy = query_.drivers;
     if (gives("joint-acceleration"))
-      report_.error({}, query_.name,
-                    "the accelerations of all joints and of a frame are given: they contradict "
-                    "each other",
-                    "give joint forces, or leave the acceleration constraints out");
+      refuse(policy.singular_origin, query_.name,
+             "the accelerations of all joints and of a frame are given: they contradict "
+             "each other",
+             "give joint forces, or leave the acceleration constraints out");
     if (policy.singular == Singular::kUnstated)
-      report_.error({}, query_.name,
-                    "it has acceleration constraints and does not say what happens where they "
-                    "depend on each other",
-                    "state singular: in-order, truncated (each with its tolerance), or damped");
+      refuse(policy.singular_origin, query_.name,
+             "it has acceleration constraints and does not say what happens where they "
+             "depend on each other",
+             "state singular: in-order, truncated (each with its tolerance), or damped");
     const double number = policy.singular_number;
     const bool damped = policy.singular == Singular::kDamped;
     if (policy.singular != Singular::kUnstated &&
         !(number >= (damped ? kSmallestDamping : 1e-15) && number < 1))
-      report_.error({}, query_.name,
-                    fmt::format("{} is no {}", number, damped ? "damping" : "tolerance"),
-                    damped ? "a number from 1e-7 to below 1: 1 is the size of each constraint's "
-                             "own effect"
-                           : "a number from 1e-15 to below 1, for example 1e-9");
+      refuse(policy.singular_origin, query_.name,
+             fmt::format("{} is no {}", number, damped ? "damping" : "tolerance"),
+             damped ? "a number from 1e-7 to below 1: 1 is the size of each constraint's "
+                      "own effect"
+                    : "a number from 1e-15 to below 1, for example 1e-9");
     const std::size_t most = policy.singular == Singular::kTruncated
                                  ? math::kMostTruncatedConstraints
                                  : math::kMostConstraints;
     if (count > most)
-      report_.error({}, query_.name,
-                    fmt::format("{} constrained directions, more than {}", count, most),
-                    policy.singular == Singular::kTruncated
-                        ? fmt::format("up to {} with singular: in-order", math::kMostConstraints)
-                        : "constrain fewer");
+      refuse(policy.singular_origin, query_.name,
+             fmt::format("{} constrained directions, more than {}", count, most),
+             policy.singular == Singular::kTruncated
+                 ? fmt::format("up to {} with singular: in-order", math::kMostConstraints)
+                 : "constrain fewer");
   }
 
   void read_limits() {
@@ -307,18 +312,18 @@ class Resolver {
     }
     for (const AccelerationConstraint& one : drivers_.constraints)
       if (!drivers_.apart) known += (known.empty() ? "" : ", ") + one.label;
-    report_.error({}, limited,
-                  "there is no driver of this name that actuators make, so none to scale down",
-                  known.empty() ? "give an acceleration constraint or joint forces"
-                                : "one of " + known + ", or joint-force for all joint forces");
+    refuse(query_.drivers.limited_origin, limited,
+           "there is no driver of this name that actuators make, so none to scale down",
+           known.empty() ? "give an acceleration constraint or joint forces"
+                         : "one of " + known + ", or joint-force for all joint forces");
   }
 
   void check_limits() {
     if (std::all_of(drivers_.force_limits.begin(), drivers_.force_limits.end(),
                     [](double limit) { return std::isnan(limit); }))
-      report_.error({}, query_.drivers.limited,
-                    "it is to be scaled down until no actuator saturates, but no joint has a limit",
-                    "state the joints' maximum forces in the model");
+      refuse(query_.drivers.limited_origin, query_.drivers.limited,
+             "it is to be scaled down until no actuator saturates, but no joint has a limit",
+             "state the joints' maximum forces in the model");
   }
 
   graph::Store& store_;

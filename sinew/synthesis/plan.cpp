@@ -40,11 +40,12 @@ class Planner {
     for (const std::string& slot : unknown_)
       if (missing.empty() && slot != wish.slot)
         report.error(
-            {}, "",
+            wish.origin.place, wish.origin.iri,
             fmt::format("{} cannot be computed without {}, which no step gives", wish.asked, slot),
             "add a step that gives it");
     if (missing.empty() && (unknown_.empty() || unknown_.contains(wish.slot))) {
-      report.error({}, "", fmt::format("nothing computes {}", wish.asked),
+      report.error(wish.origin.place, wish.origin.iri,
+                   fmt::format("nothing computes {}", wish.asked),
                    "ask for a quantity that `sinew synth --help` lists");
       return;
     }
@@ -53,7 +54,8 @@ class Planner {
       const std::string& slot = *at;
       const GivenQuantity* driver = find_given_for(slot);
       const std::string name(driver ? driver->name : std::string_view(slot));
-      report.error({}, "", fmt::format("{} cannot be computed without {}", wish.asked, name),
+      report.error(wish.origin.place, wish.origin.iri,
+                   fmt::format("{} cannot be computed without {}", wish.asked, name),
                    fmt::format("add {} to what the query gives", name));
     }
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sinew/base/error.h"
+#include "sinew/synthesis/query.h"
 #include "sinew/synthesis/sweep.h"
 
 namespace sinew::synthesis {
@@ -19,10 +20,11 @@ struct Plan {
   std::vector<std::string> why;  // a line for each step: what asked for it
 };
 
-// A slot that is asked for, and the words in which the user asked.
+// A slot that is asked for, and the words in which the user asked, with their place.
 struct Wish {
   std::string slot;
   std::string asked;
+  Origin origin = {};
 };
 
 // Errors, for each wish that cannot be met, name what is missing and how to give it.

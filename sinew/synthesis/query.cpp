@@ -35,6 +35,7 @@ std::string canonical_text(const Query& query) {
   if (drivers.list != DriverList::kTogether)
     text += fmt::format(" drivers {}", static_cast<int>(drivers.list));
   if (!drivers.limited.empty()) text += " limited " + drivers.limited;
+  for (const Held& held : query.held) text += fmt::format(" holds {}({})", held.quantity, held.of);
   if (!query.sweeps.empty()) text += " sweeps " + query.sweeps;
   return text;
 }

@@ -27,6 +27,14 @@ inline constexpr std::string_view kEveryTip = "every-tip";  // the query's tips,
 inline constexpr std::string_view kItself = "itself";  // the frame that is asked for, or given
 inline constexpr std::string_view kBase = "base";
 
+// Where a part of a query was written, for errors. It is no part of what is said, so any two are
+// equal.
+struct Origin {
+  std::string iri;  // of its node; empty where it has no name
+  Place place;
+  friend bool operator==(const Origin&, const Origin&) { return true; }
+};
+
 struct Asked {
   std::string quantity;  // a row of asked.cpp: "pose", "joint-force", "mass-matrix", ...
   std::string of;        // frame, joint or link; kEveryTip, kEveryJoint; empty for the whole robot
@@ -34,6 +42,7 @@ struct Asked {
   // frame that the motion is with respect to.
   std::string seen_by;
   std::string with_respect_to = {};  // of poses and motions of frames; empty: the base
+  Origin origin = {};
 
   bool operator==(const Asked&) const = default;
 };
@@ -44,7 +53,7 @@ struct Given {
   // Of wrenches: kItself (also when it is empty) or kBase. They are always about the origin of the
   // frame on which they act.
   std::string seen_by = {};
-  bool varies = false;  // of gravity: an input of each call instead of a constant
+  bool varies = false;   // of gravity: an input of each call instead of a constant
   std::string iri = {};  // its own node, where it has one
 
   // Of an acceleration constraint: the directions in which the frame's acceleration with respect to
@@ -53,8 +62,21 @@ struct Given {
   std::vector<std::string> directions = {};
   std::vector<std::array<double, 6>> unit_forces = {};
   unsigned direction_inputs = 0;  // seen by the base's axes (also when it is empty) or by its own
+  Origin origin = {};
 
   bool operator==(const Given&) const = default;
+};
+
+// A quantity that is had at a lower rate than the rest. What is given then changes slowly, and what
+// depends on that alone is computed by the program's update, which runs after each change: no
+// result changes. What is asked, or computed on the way, keeps its value from one update to the
+// next: an approximation that the query asks for (program/partial.h).
+struct Held {
+  std::string quantity;  // given, asked, or of anything computed on the way
+  std::string of = {};   // one element of it; empty, kEveryJoint, kEveryTip: all
+  Origin origin = {};
+
+  bool operator==(const Held&) const = default;
 };
 
 // How the effects of several drivers become one.
@@ -83,6 +105,7 @@ struct DriverPolicy {
   // The driver that is scaled down until no actuator saturates: a constraint or a joint force, by
   // IRI or its last segment, or "joint-force" for all of those; empty: none is.
   std::string limited;
+  Origin singular_origin = {}, limited_origin = {};
 
   bool operator==(const DriverPolicy&) const = default;
 };
@@ -97,6 +120,7 @@ struct Query {
 
   std::string base;               // a link or frame; empty: the tree's root
   std::vector<std::string> tips;  // empty: every leaf
+  Origin base_origin = {}, tips_origin = {};
   // The gravity vector [m/s^2] seen from the base; overrides the model's.
   std::optional<std::array<double, 3>> gravity;
   bool floating = false;  // the base moves freely: its pose, twist and acceleration come first
@@ -107,6 +131,7 @@ struct Query {
   // Whose controllers work with the solver (control.h); null: none.
   std::shared_ptr<const task::Task> task = nullptr;
   DriverPolicy drivers;
+  std::vector<Held> held = {};
   std::string sweeps;  // name of a hand-written sweep configuration; empty: planned
 };
 

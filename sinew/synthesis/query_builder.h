@@ -77,6 +77,11 @@ class Ask {
     query_.frames = policy;
     return *this;
   }
+  // Had at a lower rate; of one element, or of all that it is of.
+  Ask& holding(std::string quantity, std::string of = {}) {
+    query_.held.push_back({std::move(quantity), std::move(of)});
+    return *this;
+  }
 
   operator Query() const { return query_; }  // NOLINT(google-explicit-constructor): it is one
 

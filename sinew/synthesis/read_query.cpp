@@ -130,6 +130,12 @@ class Reader {
     return word == second;
   }
 
+  // Of a node, or of what it says with a property. A node without a name has a place only.
+  Origin origin(Id node, std::string_view property) const {
+    return {terms_.is_iri(node) ? std::string(terms_.text(node)) : std::string(),
+            places_ != nullptr ? places_->find(node, word(property)) : Place{}};
+  }
+
   void error(Id node, std::string_view property, std::string_view what, std::string remedy) {
     report_.error(places_ ? places_->find(node, word(property)) : Place{},
                   std::string(terms_.text(node)), fmt::format("{} {}", what, property),
@@ -182,6 +188,7 @@ std::array<double, 6> read_unit_force(Reader& reader, Id given, Id list) {
 Given read_given(Reader& reader, Id node) {
   Given given{reader.required_text(node, "quantity"), reader.element(node, "of"),
               reader.element(node, "seen-by"), reader.text(node, "varies") == "true"};
+  given.origin = reader.origin(node, "quantity");
   if (given.quantity != "acceleration-constraint") return given;
   if (reader.terms().is_iri(node)) given.iri = reader.terms().text(node);
   for (const Id direction : reader.list(node, "directions"))
@@ -223,6 +230,8 @@ void read_policies(Reader& reader, Id node, DriverPolicy& policy) {
   if (!list.empty() && list != "together" && policy.list == DriverList::kTogether)
     reader.error(node, "drivers", "has another word for", "together, apart or weighed");
   policy.limited = reader.element(node, "limited");
+  policy.singular_origin = reader.origin(node, "singular");
+  policy.limited_origin = reader.origin(node, "limited");
 }
 
 SweepConfiguration read_sweeps(const graph::View& view, Id node, const graph::Places* places,
@@ -258,12 +267,18 @@ Query read_query(const graph::View& view, Id node, const graph::Places* places, 
   for (const Id asked : reader.list(node, "asks"))
     query.asked.push_back({reader.required_text(asked, "quantity"), reader.element(asked, "of"),
                            reader.element(asked, "seen-by"),
-                           reader.element(asked, "with-respect-to")});
+                           reader.element(asked, "with-respect-to"),
+                           reader.origin(asked, "quantity")});
   for (const Id given : reader.objects(node, "gives"))
     query.given.push_back(read_given(reader, given));
+  for (const Id held : reader.objects(node, "holds"))
+    query.held.push_back({reader.required_text(held, "quantity"), reader.element(held, "of"),
+                          reader.origin(held, "quantity")});
   query.base = reader.element(node, "base");
   for (const Id tip : reader.list(node, "tips"))
     query.tips.push_back(Reader::element_of(std::string(view.terms().text(tip))));
+  if (!query.base.empty()) query.base_origin = reader.origin(node, "base");
+  if (!query.tips.empty()) query.tips_origin = reader.origin(node, "tips");
   read_gravity(reader, node, query);
   query.floating = reader.text(node, "floating") == "true";
   query.forces =

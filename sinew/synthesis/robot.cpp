@@ -193,8 +193,8 @@ Id find_frame(graph::Store& store, const View& view, std::string_view name) {
     const std::string_view frame = view.terms().text(row[0]);
     const std::string_view link = row[1] ? view.terms().text(row[1]) : std::string_view{};
     if (frame == name || link == name) note(exact, row[0]);
-    if (short_name(frame) == name) note(by_name, row[0]);
-    if (short_name(link) == name && row[1]) note(by_link, row[0]);
+    if (algorithm::is_called(frame, name)) note(by_name, row[0]);
+    if (row[1] && algorithm::is_called(link, name)) note(by_link, row[0]);
   }
   // A link and its root frame often share their name with further frames, such as that of its
   // inertia.

@@ -16,7 +16,7 @@ Step velocity_step();
 
 // steps_acceleration.cpp
 Step gravity_step();
-Step joint_acceleration_step();
+Step joint_acceleration_step(Motion motion);
 Step acceleration_step(Motion motion);
 
 // steps_force.cpp
@@ -35,7 +35,7 @@ Step joint_wrench_step();
 
 // steps_frames.cpp: of the frames that are asked for
 Step frame_pose_step();
-Step frame_twist_step();
+Step frame_twist_step(bool by_jacobian);
 Step frame_acceleration_step();
 
 // steps_forward_dynamics.cpp

@@ -12,9 +12,20 @@ using algorithm::Role;
 
 constexpr double kZero[6] = {};
 
-void configure_relative(Context& context, const Visit& visit) {
+void configure_relative(Motion motion, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
-  algorithm::BlockSpec spec = {.slot = "relative-acceleration",
+  const std::string slot = slot_of(motion, "relative-acceleration");
+  if (motion == Motion::kDriven && floats_freely(context, edge))
+    context.make({.slot = "no-relative-twist",
+                  .represents = edge.joint,
+                  .quantity = "velocity-twist",
+                  .of = edge.successor,
+                  .wrt = edge.predecessor,
+                  .reference = edge.child,
+                  .seen_by = edge.child,
+                  .role = Role::kConstant,
+                  .value = kZero});
+  algorithm::BlockSpec spec = {.slot = slot,
                                .represents = edge.joint,
                                .quantity = "acceleration-twist",
                                .of = edge.successor,
@@ -29,26 +40,29 @@ void configure_relative(Context& context, const Visit& visit) {
   context.make(spec);
 }
 
-void compute_relative(Context& context, const Visit& visit) {
+void compute_relative(Motion motion, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const FreePart part = free_part(context, edge.joint);
   if (part.whole != nullptr && !part.last) return;
   const BlockIndex given = part.whole != nullptr ? whole_acceleration(context, *part.whole)
                                                  : context.block("acceleration", edge.joint);
-  const BlockIndex relative = context.block("relative-acceleration", edge.joint);
+  const BlockIndex relative = context.block(slot_of(motion, "relative-acceleration"), edge.joint);
   const bool floats = floats_freely(context, edge);
   const std::string operation =
       "acceleration-to-twist-" + (part.whole != nullptr ? part.whole->kind : edge.kind);
   if (floats)
-    context.closure(operation, {given, context.block("relative-twist", edge.joint), relative},
-                    edge.joint);
+    context.closure(
+        operation,
+        {given, context.block(at_rest(motion) ? "no-relative-twist" : "relative-twist", edge.joint),
+         relative},
+        edge.joint);
   else
     context.closure(operation, {given, relative}, edge.joint);
 }
 
 void configure_root(Motion motion, Context& context, const Visit& visit) {
   const std::string slot = slot_of(motion, "body-acceleration");
-  if (context.has("base-acceleration", visit.node)) {
+  if (falls(motion) && context.has("base-acceleration", visit.node)) {
     context.board.put(slot, visit.node, context.block("base-acceleration", visit.node));
     return;
   }
@@ -61,6 +75,12 @@ void configure_root(Motion motion, Context& context, const Visit& visit) {
                 .seen_by = visit.node,
                 .role = Role::kConstant,
                 .value = kZero});
+}
+
+// The velocity of a floating base has coordinates in its own frame: while these do not change, its
+// origin may still accelerate.
+bool accelerates_by_velocity(Motion motion, const Context& context, const JointEdge& edge) {
+  return !at_rest(motion) && floats_freely(context, edge);
 }
 
 void configure_body(Motion motion, Context& context, const Visit& visit) {
@@ -77,39 +97,35 @@ void configure_body(Motion motion, Context& context, const Visit& visit) {
   acceleration("acceleration-at-joint", edge.joint, edge.predecessor, edge.joint_frame);
   acceleration("acceleration-across-joint", edge.joint, edge.predecessor, edge.child);
   acceleration("body-acceleration", edge.child, edge.successor, edge.child);
-  if (motion == Motion::kFull) return;
-  if (floats_freely(context, edge) && motion == Motion::kBias) {
+  if (is_driven(motion)) return;
+  algorithm::BlockSpec relative = {.slot = "no-relative-acceleration",
+                                   .represents = edge.joint,
+                                   .quantity = "acceleration-twist",
+                                   .of = edge.successor,
+                                   .wrt = edge.predecessor,
+                                   .reference = edge.child,
+                                   .seen_by = edge.child,
+                                   .role = Role::kConstant,
+                                   .value = kZero};
+  if (accelerates_by_velocity(motion, context, edge)) {
     algorithm::BlockSpec still = edge.coordinate("no-acceleration", "acceleration");
     still.quantity = "floating-acceleration";
     still.prismatic = false;
     still.role = Role::kConstant;
     still.value = kZero;
     context.make(still);
-    context.make({.slot = "bias-relative-acceleration",
-                  .represents = edge.joint,
-                  .quantity = "acceleration-twist",
-                  .of = edge.successor,
-                  .wrt = edge.predecessor,
-                  .reference = edge.child,
-                  .seen_by = edge.child});
-    return;
+    relative.slot = "bias-relative-acceleration";
+    relative.role = Role::kInternal;
+    relative.value = {};
   }
-  context.make({.slot = "no-relative-acceleration",
-                .represents = edge.joint,
-                .quantity = "acceleration-twist",
-                .of = edge.successor,
-                .wrt = edge.predecessor,
-                .reference = edge.child,
-                .seen_by = edge.child,
-                .role = Role::kConstant,
-                .value = kZero});
+  context.make(relative);
 }
 
-// Of the joint alone. The velocity of a floating base has coordinates in its own frame: while these
-// do not change, its origin may still accelerate.
+// Of the joint alone.
 BlockIndex relative_acceleration(Motion motion, Context& context, const JointEdge& edge) {
   if (motion == Motion::kFull) return context.block("relative-acceleration", edge.joint);
-  if (motion == Motion::kRest || !floats_freely(context, edge))
+  if (motion == Motion::kDriven) return context.block("driven-relative-acceleration", edge.joint);
+  if (!accelerates_by_velocity(motion, context, edge))
     return context.block("no-relative-acceleration", edge.joint);
   const BlockIndex bias = context.block("bias-relative-acceleration", edge.joint);
   context.closure("acceleration-to-twist-floating",
@@ -126,7 +142,7 @@ void compute_body(Motion motion, Context& context, const Visit& visit) {
   const BlockIndex across = context.block(slot_of(motion, "acceleration-across-joint"), edge.joint);
   const BlockIndex placement = context.block("placement", edge.joint);
   const BlockIndex pose = context.block("pose-across-joint", edge.joint);
-  if (motion == Motion::kRest) {
+  if (at_rest(motion)) {
     context.closure("transform-acceleration-twist-to-distal-at-rest", {placement, from, at},
                     edge.joint);
     context.closure("transform-acceleration-twist-to-distal-at-rest", {pose, at, across},
@@ -166,27 +182,36 @@ Step gravity_step() {
           .visitors = {{Where::kNode, {std::string(kIsRoot)}, {}, {}, compute_gravity}}};
 }
 
-Step joint_acceleration_step() {
-  return {.name = "joint-acceleration",
-          .purpose = "the relative acceleration across each joint follows from the joint's",
+Step joint_acceleration_step(Motion motion) {
+  std::vector<std::string> needs = {"acceleration"};
+  if (!at_rest(motion)) needs.emplace_back("relative-twist");
+  return {.name = slot_of(motion, "joint-acceleration"),
+          .purpose = "the relative acceleration across each joint follows from the joint's" +
+                     phrase_of(motion),
           .direction = Direction::kOutward,
           .expansion = std::string(kAcrossJoints),
-          .needs = {"acceleration", "relative-twist"},
+          .needs = needs,
           .may_use = {},
-          .gives = {"relative-acceleration"},
-          .visitors = {{Where::kEdge, {}, {}, configure_relative, compute_relative}}};
+          .gives = {slot_of(motion, "relative-acceleration")},
+          .visitors = {{Where::kEdge,
+                        {},
+                        {},
+                        std::bind_front(configure_relative, motion),
+                        std::bind_front(compute_relative, motion)}}};
 }
 
 Step acceleration_step(Motion motion) {
   std::vector<std::string> needs = {"placement", "pose-across-joint"};
-  if (motion != Motion::kRest) needs.insert(needs.end(), {"body-twist", "relative-twist"});
-  if (motion == Motion::kFull) needs.push_back("relative-acceleration");
+  if (!at_rest(motion)) needs.insert(needs.end(), {"body-twist", "relative-twist"});
+  if (is_driven(motion)) needs.push_back(slot_of(motion, "relative-acceleration"));
+  std::vector<std::string> may_use;
+  if (falls(motion)) may_use.emplace_back("base-acceleration");
   return {.name = slot_of(motion, "body-acceleration"),
           .purpose = "accelerations add up from the root outward" + phrase_of(motion),
           .direction = Direction::kOutward,
           .expansion = std::string(kAcrossJoints),
           .needs = needs,
-          .may_use = {"base-acceleration"},
+          .may_use = may_use,
           .gives = {slot_of(motion, "body-acceleration")},
           .visitors = {{Where::kNode,
                         {std::string(kIsRoot)},

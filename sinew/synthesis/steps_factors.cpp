@@ -2,8 +2,10 @@
 // 2008, chapter 6), and forward dynamics by them: for robots in which some joints follow others,
 // and to compare with.
 #include "sinew/synthesis/coordinates.h"
+#include "sinew/synthesis/results.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/step_list.h"
+#include "sinew/synthesis/weightless.h"
 #include "sinew/synthesis/whole_robot.h"
 
 namespace sinew::synthesis {
@@ -118,9 +120,11 @@ Step cholesky_step() {
 }
 
 Step mass_matrix_decomposition_step() {
-  return at_root("mass-matrix-decomposition", "L and D of M = L^T D L, sparse as the tree is",
-                 {"mass-matrix"}, "mass-matrix-decomposition", configure_decomposition,
-                 compute_decomposition);
+  Step step = at_root("mass-matrix-decomposition", "L and D of M = L^T D L, sparse as the tree is",
+                      {"mass-matrix"}, "mass-matrix-decomposition", configure_decomposition,
+                      compute_decomposition);
+  step.visitors.push_back(refuse_weightless());
+  return step;
 }
 
 Step forward_dynamics_by_decomposition_step() {

@@ -38,8 +38,8 @@ algorithm::BlockSpec wrench(std::string_view slot, Id represents, Id of, Id fram
 
 // Whether wrenches from outside already help to move the body here.
 bool helped(Motion motion, const Context& context, Id frame) {
-  if (motion == Motion::kRest || !context.has("external-wrench", frame)) return false;
-  return motion == Motion::kBias || context.query.forces == Forces::kTogether;
+  if (at_rest(motion) || !context.has("external-wrench", frame)) return false;
+  return motion != Motion::kFull || context.query.forces == Forces::kTogether;
 }
 
 // A body without inertia needs none.
@@ -60,7 +60,7 @@ void compute_inertial(Motion motion, Context& context, const Visit& visit, Block
   if (!context.has("inertia", visit["body"])) return;
   const BlockIndex inertia = context.block("inertia", visit["body"]);
   const BlockIndex acceleration = context.block(slot_of(motion, "body-acceleration"), visit.node);
-  if (motion == Motion::kRest)
+  if (at_rest(motion))
     context.closure("acceleration-twist-to-wrench", {inertia, acceleration, wrench}, visit["body"]);
   else
     context.closure("newton-euler-wrench",
@@ -142,7 +142,7 @@ void configure_force(Motion motion, Context& context, const Visit& visit) {
   }
   const std::string slot = slot_of(motion, "force");
   context.make(edge.coordinate(slot, "force"));
-  if (motion == Motion::kFull) make_rotor(context, edge, pairs.empty() ? slot : "force-so-far");
+  if (is_driven(motion)) make_rotor(context, edge, pairs.empty() ? slot : "force-so-far");
 }
 
 void compute_force(Motion motion, Context& context, const Visit& visit) {
@@ -151,7 +151,7 @@ void compute_force(Motion motion, Context& context, const Visit& visit) {
   const BlockIndex force = context.block(slot_of(motion, "force"), edge.joint);
   BlockIndex sum = pairs.empty() ? force : context.block("force-so-far", edge.joint);
   const BlockIndex wrench = needed_wrench_so_far(motion, context, edge.child);
-  if (motion == Motion::kFull && has_rotor(context, edge.joint))
+  if (is_driven(motion) && has_rotor(context, edge.joint))
     compute_with_rotor(context, edge, "force-with-rotor", wrench,
                        {context.block("acceleration", edge.joint)}, sum);
   else
@@ -180,7 +180,7 @@ Step inertia_step() {
 
 Step own_wrench_step(Motion motion) {
   std::vector<std::string> needs = {"inertia", slot_of(motion, "body-acceleration")};
-  if (motion != Motion::kRest) needs.push_back("body-twist");
+  if (!at_rest(motion)) needs.push_back("body-twist");
   return {.name = slot_of(motion, "own-wrench"),
           .purpose = "Newton and Euler: the wrench that moves each body" + phrase_of(motion),
           .direction = Direction::kLocal,

@@ -6,6 +6,7 @@
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/rotor.h"
 #include "sinew/synthesis/step_list.h"
+#include "sinew/synthesis/weightless.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -41,16 +42,6 @@ void compute_own(Context& context, const Visit& visit) {
                   {context.block("inertia", visit["body"]),
                    context.block("own-articulated-inertia", visit.node)},
                   visit["body"]);
-}
-
-// A force on a joint that moves nothing has no finite acceleration.
-void refuse_weightless(Context& context, const Visit& visit) {
-  throw Error(Problem{{},
-                      std::string(context.view.terms().text(visit["body"])),
-                      "it ends a chain and has no inertia: its joint's acceleration is not defined",
-                      "state its inertia, or make its joint a fixed one",
-                      {},
-                      {}});
 }
 
 BlockIndex sum_so_far(const Context& context, std::string_view slot, std::string_view own,
@@ -254,19 +245,15 @@ void compute_result(Context& context, const Visit& visit) {
 
 Step own_articulated_inertia_step() {
   const std::string body(kBodyOfNode), moves(kIsNotRoot);
-  return {.name = "own-articulated-inertia",
-          .purpose = "each body by itself resists acceleration with its own inertia",
-          .direction = Direction::kLocal,
-          .expansion = std::string(kAcrossJoints),
-          .needs = {"inertia"},
-          .may_use = {},
-          .gives = {"own-articulated-inertia"},
-          .visitors = {{Where::kNode, {moves}, body, configure_own, compute_own},
-                       {Where::kNode,
-                        {moves, std::string(kHasNoInertia), std::string(kIsLeaf)},
-                        body,
-                        refuse_weightless,
-                        {}}}};
+  return {
+      .name = "own-articulated-inertia",
+      .purpose = "each body by itself resists acceleration with its own inertia",
+      .direction = Direction::kLocal,
+      .expansion = std::string(kAcrossJoints),
+      .needs = {"inertia"},
+      .may_use = {},
+      .gives = {"own-articulated-inertia"},
+      .visitors = {{Where::kNode, {moves}, body, configure_own, compute_own}, refuse_weightless()}};
 }
 
 Step articulated_inertia_step() {

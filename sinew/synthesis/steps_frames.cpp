@@ -1,4 +1,6 @@
 // Outputs of the frames that are asked for: bodies' frames, and those that are fixed to them.
+#include <fmt/format.h>
+
 #include "sinew/synthesis/asked.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/step_list.h"
@@ -6,6 +8,7 @@
 namespace sinew::synthesis {
 namespace {
 
+using algorithm::Block;
 using algorithm::Role;
 
 constexpr std::string_view kAsksTwist = SINEW_ASKS_PREFIX "ASK { ?algorithm sa:asks-twist ?node }";
@@ -40,6 +43,7 @@ void compute_pose(Context& context, const Visit& visit) {
 // transform to the frame.
 struct MotionOfFrame {
   std::string_view quantity, of_body, of_frame, of_observer, from_observer, output, rotate, add;
+  bool by_jacobian = false;
 };
 constexpr MotionOfFrame kTwist = {"velocity-twist",
                                   "body-twist",
@@ -49,6 +53,11 @@ constexpr MotionOfFrame kTwist = {"velocity-twist",
                                   "twist",
                                   "rotate-velocity-twist-to-proximal",
                                   "add-velocity-twist"};
+constexpr MotionOfFrame kTwistByJacobian = [] {
+  MotionOfFrame row = kTwist;
+  row.by_jacobian = true;
+  return row;
+}();
 constexpr MotionOfFrame kAcceleration = {"acceleration-twist",
                                          "body-acceleration",
                                          "frame-acceleration",
@@ -97,16 +106,59 @@ void configure_output(const MotionOfFrame& row, Context& context, Id frame, Id b
   context.make(motion(row, row.output, frame, body, root_body, root));
 }
 
+// The velocities of joints times their columns of the frame's Jacobian, which is there anyway, are
+// the velocity of its origin. How it turns, its body knows. `result` has the root's directions.
+void add_columns(Context& context, Id frame, BlockIndex own, BlockIndex result) {
+  const Block block = context.builder.at(result);
+  const auto next = [&](std::string_view slot, Id element, const std::string& label) {
+    return context.make({.slot = slot,
+                         .represents = element,
+                         .quantity = "velocity-twist",
+                         .of = block.symbols[0],
+                         .wrt = block.symbols[1],
+                         .reference = block.symbols[2],
+                         .seen_by = block.symbols[3],
+                         .label = label});
+  };
+  const std::string name(algorithm::short_name(context.view.terms().text(frame)));
+  BlockIndex twist = next("turning", frame, name);
+  context.closure("turning-seen-from-proximal", {context.block("pose", frame), own, twist}, frame);
+  const std::vector<std::size_t> path = path_to(context.robot, context.view, frame);
+  for (const std::size_t k : path) {
+    const RobotJoint& joint = context.robot.joints[k];
+    const Id pair = context.pair(frame, joint.joint);
+    const std::string_view label =
+        joint.label.empty() ? algorithm::short_name(context.view.terms().text(joint.joint))
+                            : std::string_view(joint.label);
+    const BlockIndex with =
+        k == path.back() ? result : next("twist-so-far", pair, fmt::format("{}.{}", name, label));
+    context.closure("add-linear-motion-of-column",
+                    {twist, context.block("jacobian-column", pair),
+                     context.block("velocity", joint.joint), with},
+                    joint.joint);
+    twist = with;
+  }
+}
+
+void to_root_directions(const MotionOfFrame& row, Context& context, Id frame, BlockIndex own,
+                        BlockIndex result) {
+  const bool moves = !path_to(context.robot, context.view, frame).empty();
+  if (row.by_jacobian && moves)
+    add_columns(context, frame, own, result);
+  else
+    context.closure(row.rotate, {context.block("pose", frame), own, result}, frame);
+}
+
 void compute_output(const MotionOfFrame& row, Context& context, Id frame) {
   const BlockIndex pose = context.block("pose", frame);
   const BlockIndex own = context.block(row.of_frame, frame);
   const BlockIndex output = context.block(row.output, frame);
   if (context.reference == context.robot.root_body) {
-    context.closure(row.rotate, {pose, own, output}, frame);
+    to_root_directions(row, context, frame, own, output);
     return;
   }
   const BlockIndex from_observer = context.block(row.from_observer, frame);
-  context.closure(row.rotate, {pose, own, from_observer}, frame);
+  to_root_directions(row, context, frame, own, from_observer);
   if (falls_as_given(row, context))
     context.closure("free-fall-from-gravity",
                     {pose, context.block("gravity", context.robot.root_frame),
@@ -124,7 +176,7 @@ void compute_frame(const MotionOfFrame& row, Context& context, const Visit& visi
   const BlockIndex placement = context.block("frame-placement", visit.node);
   const BlockIndex own = context.block(row.of_frame, visit.node);
   const BlockIndex twist = context.block("body-twist", visit.parent);
-  if (&row == &kTwist)
+  if (row.quantity == kTwist.quantity)
     context.closure("transform-velocity-twist-to-distal", {placement, twist, own}, visit.node);
   else
     context.closure("transform-acceleration-twist-to-distal-fixed",
@@ -171,15 +223,22 @@ Step frame_pose_step() {
           .visitors = {{Where::kEdge, {}, {}, configure_pose, compute_pose}}};
 }
 
-Step frame_twist_step() {
-  return {.name = "frame-twist",
-          .purpose = "the twists that are asked for, with the root's directions",
-          .direction = Direction::kOutward,
-          .expansion = std::string(kAcrossJoints),
-          .needs = {"frame-pose", "body-twist"},
-          .may_use = {},
-          .gives = {"twist"},
-          .visitors = motion_visitors(kTwist, kAsksTwist)};
+Step frame_twist_step(bool by_jacobian) {
+  Step step = {.name = "frame-twist",
+               .purpose = "the twists that are asked for, with the root's directions",
+               .direction = Direction::kOutward,
+               .expansion = std::string(kAcrossJoints),
+               .needs = {"frame-pose", "body-twist"},
+               .may_use = {},
+               .gives = {"twist"},
+               .visitors = motion_visitors(kTwist, kAsksTwist)};
+  if (!by_jacobian) return step;
+  step.name = "frame-twist-by-jacobian";
+  step.purpose += "; their Jacobians, which are asked for too, give the linear part";
+  step.direction = Direction::kInward;  // as the Jacobians
+  step.needs.insert(step.needs.end(), {"jacobian", "velocity"});
+  step.visitors = motion_visitors(kTwistByJacobian, kAsksTwist);
+  return step;
 }
 
 Step frame_acceleration_step() {

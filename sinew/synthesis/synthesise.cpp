@@ -10,246 +10,56 @@
 #include "sinew/synthesis/asked.h"
 #include "sinew/synthesis/context.h"
 #include "sinew/synthesis/control.h"
-#include "sinew/synthesis/coordinates.h"
 #include "sinew/synthesis/driver_list.h"
 #include "sinew/synthesis/drivers.h"
 #include "sinew/synthesis/external_wrenches.h"
 #include "sinew/synthesis/floating_base.h"
+#include "sinew/synthesis/held.h"
 #include "sinew/synthesis/hybrid_steps.h"
 #include "sinew/synthesis/plan.h"
+#include "sinew/synthesis/query_faults.h"
 #include "sinew/synthesis/read_query.h"
 #include "sinew/synthesis/regroup.h"
+#include "sinew/synthesis/resolve_query.h"
+#include "sinew/synthesis/results.h"
 #include "sinew/synthesis/step_models.h"
+#include "sinew/synthesis/steps_together.h"
 
 namespace sinew::synthesis {
 namespace {
 
 using algorithm::kAlgorithmNamespace;
 
-// One thing that is asked: the row of the table and the element.
-struct Wanted {
-  const AskedQuantity* quantity;
-  Id element;
-  std::vector<Id> frames = {};  // the way to them matters
-  bool output = true;           // false: a task needs it
-};
-
-struct Resolved {
-  std::vector<Wanted> wanted;
-  std::vector<Relation> relations;
-  std::vector<Wish> wishes;
-  bool dynamic = false;
-  bool regroups = true;
-};
-
 std::string text(const graph::View& view, Id id) { return std::string(view.terms().text(id)); }
-
-std::vector<Id> tips(graph::Store& store, const graph::View& view, const Robot& robot,
-                     const Query& query) {
-  if (query.tips.empty()) return leaf_frames(store, view, robot);
-  std::vector<Id> frames;
-  for (const std::string& name : query.tips) {
-    const Id frame = find_frame(store, view, name);
-    path_to(robot, view, frame);  // refuses a tip that the base does not reach
-    frames.push_back(frame);
-  }
-  return frames;
-}
-
-// The elements that a question is about, in the order of the outputs.
-std::vector<Id> elements(graph::Store& store, const graph::View& view, const Robot& robot,
-                         const Query& query, const MotionDrivers& drivers, const Asked& asked,
-                         Element kind) {
-  std::vector<Id> found;
-  switch (kind) {
-    case Element::kConstraint:
-    case Element::kDriver:
-    case Element::kDriverJoint:
-    case Element::kLimited:
-      return driver_elements(store, robot, query, drivers, asked, kind);
-    case Element::kRobot:
-      return {robot.root_body};
-    case Element::kFrame:
-      if (asked.of.empty() || asked.of == kEveryTip) return tips(store, view, robot, query);
-      found.push_back(find_frame(store, view, asked.of));
-      path_to(robot, view, found.back());
-      return found;
-    case Element::kJoint:
-      if (!asked.of.empty() && asked.of != kEveryJoint)
-        return {find_coordinate(view, robot, asked.of).joint};
-      for (const Coordinate& coordinate : coordinates(robot)) found.push_back(coordinate.joint);
-      // A joint that follows another has no numbers of its own, but a bearing.
-      if (asked.quantity == "joint-wrench")
-        for (const RobotJoint& joint : robot.joints)
-          if (joint.follows >= 0 && joint.compound < 0) found.push_back(joint.joint);
-      return found;
-  }
-  return found;
-}
-
-// The joints that each external wrench reaches, each with that wrench.
-std::vector<Id> shares(graph::Store& store, const graph::View& view, const Robot& robot,
-                       const Query& query, std::span<const ExternalWrench> wrenches) {
-  if (query.forces == Forces::kTogether || wrenches.empty())
-    throw Error(Problem{{},
-                        query.name,
-                        wrenches.empty() ? "shares of joint forces, but there is no external wrench"
-                                         : "shares of joint forces, but forces are added up early",
-                        wrenches.empty() ? "give an external-wrench" : "let forces be kept apart",
-                        {},
-                        {}});
-  std::vector<Id> pairs;
-  for (const Coordinate& coordinate : coordinates(robot))
-    for (const std::size_t part : coordinate.parts)
-      for (const ExternalWrench& one : wrenches) {
-        // A wrench reaches a joint on its way, and by way of those that follow it.
-        const auto way = path_to(robot, view, one.frame);
-        const bool reaches = std::any_of(way.begin(), way.end(), [&](std::size_t at) {
-          return at == part || robot.joints[at].follows == static_cast<int>(part);
-        });
-        if (reaches) pairs.push_back(pair_of(store.terms(), robot.joints[part].joint, one.frame));
-      }
-  return pairs;
-}
-
-// Whether it takes the longer way, by what lies between two frames.
-bool is_between(const Query& query, const Asked& asked, const AskedQuantity& row) {
-  if (row.between.empty()) return false;
-  const bool from_base = asked.with_respect_to.empty() || asked.with_respect_to == kBase;
-  const bool seen_by_base = asked.seen_by.empty() || asked.seen_by == kBase;
-  const bool spatial = row.name == "acceleration-twist" && query.frames == Frames::kStationary;
-  return !from_base || !seen_by_base || spatial || row.between == row.needs;
-}
-
-// Of what is no motion of a frame.
-void check_directions(const Asked& asked, const AskedQuantity& row) {
-  if (!row.between.empty() || (asked.with_respect_to.empty() && asked.seen_by.empty())) return;
-  throw Error(Problem{{},
-                      asked.of,
-                      fmt::format("{} is of no two frames and has directions of its own", row.name),
-                      "leave out with-respect-to and seen-by",
-                      {},
-                      {}});
-}
-
-Resolved resolve(graph::Store& store, const graph::View& view, const Robot& robot,
-                 const Query& query, std::span<const ExternalWrench> wrenches,
-                 const MotionDrivers& drivers, std::span<const AskedQuantity> more,
-                 Report& report) {
-  Resolved resolved;
-  const bool computes =
-      query.task && !(query.task->controllers.empty() && query.task->monitors.empty());
-  if (query.asked.empty() && !computes)
-    report.error({}, query.name, "the query asks for nothing",
-                 "state what is asked, or a task whose numbers are computed");
-  for (const Asked& asked : query.asked) {
-    const AskedQuantity* row = find_asked(asked.quantity);
-    for (const AskedQuantity& one : more)
-      if (one.name == asked.quantity) row = &one;
-    if (row == nullptr) {
-      std::string known;
-      for (const AskedQuantity& one : more)
-        known += (known.empty() ? "" : ", ") + std::string(one.name);
-      for (const AskedQuantity& one : asked_quantities())
-        known += (known.empty() ? "" : ", ") + std::string(one.name);
-      report.error({}, query.name, fmt::format("nothing is known of {}", asked.quantity),
-                   "ask for one of " + known);
-      continue;
-    }
-    resolved.dynamic |= row->dynamic;
-    resolved.regroups &= row->regroups;
-    const bool between = is_between(query, asked, *row);
-    resolved.wishes.push_back({std::string(between ? row->between : row->needs), asked.quantity});
-    try {
-      if (!between) check_directions(asked, *row);
-      for (const Id element :
-           row->name == "joint-force-share"
-               ? shares(store, view, robot, query, wrenches)
-               : elements(store, view, robot, query, drivers, asked, row->element)) {
-        if (!between) {
-          resolved.wanted.push_back({row, element, {element}});
-          continue;
-        }
-        const Relation one = relation_of(store, view, robot, asked, element);
-        resolved.wanted.push_back({row, one.node, {one.of, one.with_respect_to, one.seen_by}});
-        resolved.relations.push_back(one);
-      }
-    } catch (const Error& error) {
-      for (const Problem& problem : error.problems()) report.add(problem);
-    }
-  }
-  return resolved;
-}
 
 void check_base(graph::Store& store, const graph::View& view, const Robot& robot,
                 const Query& query) {
   if (query.base.empty()) return;
   const Id frame = find_frame(store, view, query.base);
   if (body_frame(view, frame) == robot.root_frame) return;
-  throw Error(Problem{{},
-                      query.base,
-                      "it is not the base of the tree, which is " + text(view, robot.root_body),
-                      "normalise the model from this base",
-                      {},
-                      {}});
+  throw Error(fault_in(query, query.base_origin, query.base,
+                       "it is not the base of the tree, which is " + text(view, robot.root_body),
+                       "normalise the model from this base"));
 }
 
 // The gravity vector seen from the root: the query's, else the model's.
-std::array<double, 3> gravity(const Context& context, std::vector<std::string>& notes) {
-  if (context.query.gravity) return *context.query.gravity;
-  if (context.robot.base_acceleration) {
-    const std::vector<double> a = context.numbers(context.robot.base_acceleration);
+std::array<double, 3> gravity(const graph::View& view, const Robot& robot, const Query& query,
+                              std::vector<std::string>& notes) {
+  if (query.gravity) return *query.gravity;
+  if (robot.base_acceleration) {
+    const std::vector<double> a = coordinate_numbers(view, robot.base_acceleration);
     return {-a.at(3), -a.at(4), -a.at(5)};
   }
   notes.push_back("no gravity in the model and none in the query: it is zero");
   return {0, 0, 0};
 }
 
-// Wrenches, and gravity that varies, have their effect although nobody asks for it.
-void wish_for_drivers(std::span<const ExternalWrench> wrenches, const Query& query,
-                      Resolved& resolved) {
-  if (gravity_varies(query)) resolved.wishes.push_back({"base-acceleration", "gravity"});
-  if (!resolved.dynamic || wrenches.empty()) return;
-  const bool from_base = std::any_of(wrenches.begin(), wrenches.end(),
-                                     [](const auto& one) { return one.seen_from_base; });
-  resolved.wishes.push_back(
-      {from_base ? "external-wrench-from-base" : "external-wrench", "external wrenches"});
-  if (query.forces == Forces::kApart)
-    resolved.wishes.push_back({"force-share", "external wrenches, kept apart"});
-}
-
-// What the expansion queries and conditions see of the question.
-void write_asks(graph::Store& store, graph::Transaction& transaction, Id algorithm,
-                const Resolved& resolved, std::span<const ExternalWrench> wrenches,
-                const MotionDrivers& drivers) {
-  graph::Terms& terms = store.terms();
-  const auto sa = [&](std::string_view name) {
-    return terms.iri(std::string(kAlgorithmNamespace) + std::string(name));
-  };
-  for (const Wanted& wanted : resolved.wanted) {
-    transaction.add({algorithm, sa("asks"), wanted.element, algorithm});
-    transaction.add(
-        {algorithm, sa("asks-" + std::string(wanted.quantity->name)), wanted.element, algorithm});
-  }
-  for (const ExternalWrench& one : wrenches)  // their directions are the base's
-    if (one.seen_from_base) transaction.add({algorithm, sa("asks"), one.frame, algorithm});
-  for (const Id frame : constrained_frames(drivers))
-    transaction.add({algorithm, sa("asks"), frame, algorithm});
-}
-
-void set_scope(Context& context, const Resolved& resolved) {
-  if (resolved.dynamic) return;
-  for (const Wanted& wanted : resolved.wanted)
-    for (const Id frame : wanted.frames)
-      for (const std::size_t joint : path_to(context.robot, context.view, frame))
-        context.scope.insert(context.robot.joints[joint].frame);
-}
-
-// Steps that the query's drivers call for, those that come with Sinew, and those of the graph:
-// where two give the same, the first one is taken.
-std::vector<Step> available_steps(const MotionDrivers& drivers, const StepModels& models,
-                                  bool coupled) {
+// Steps that the query's drivers call for, those for what is asked together, those that come with
+// Sinew, and those of the graph: where two give the same, the first one is taken.
+std::vector<Step> available_steps(const MotionDrivers& drivers, std::span<const Step> together,
+                                  const StepModels& models, bool coupled) {
   std::vector<Step> list = hybrid_steps(drivers);
+  list.insert(list.end(), together.begin(), together.end());
   const std::span<const Step> ours = steps_for(coupled);
   list.insert(list.end(), ours.begin(), ours.end());
   list.insert(list.end(), models.steps.begin(), models.steps.end());
@@ -360,7 +170,8 @@ void add_elements(const task::Task& task, std::vector<Id>& facts) {
 void throw_with_query(const Query& query, const Report& report) {
   Report named;
   for (Problem problem : report.problems()) {
-    if (problem.iri.empty()) problem.iri = query.iri;
+    if (problem.iri.empty() || (problem.iri == query.name && !query.iri.empty()))
+      problem.iri = query.iri;
     if (problem.place.file.empty()) problem.place = query.place;
     named.add(std::move(problem));
   }
@@ -396,15 +207,24 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   std::vector<AskedQuantity> answered;
   for (const AnsweredQuantity& one : models.answers) answered.push_back(one.row());
   Resolved resolved = resolve(store, view, robot, query, wrenches, drivers, answered, report);
-  wish_for_drivers(wrenches, query, resolved);
   std::vector<std::string> given = given_slots(query);
   std::optional<Control> control;
   if (query.task && !query.task->empty())
     control = control_of(view, robot, query, given, resolved, report);
   if (control && control->constraints) std::erase(given, "acceleration-energy");
   throw_with_query(query, report);
-  std::vector<Step> uncoupled = available_steps(drivers, models, false);
-  std::vector<Step> available = available_steps(drivers, models, robot.coupled());
+  Synthesis result;
+  const bool falls = std::any_of(given.begin(), given.end(), [](const std::string& slot) {
+    return slot == "base-acceleration" || slot == "gravity";
+  });
+  Circumstances circumstances;
+  circumstances.has_task = control.has_value();
+  circumstances.gravity_is_constant = falls && !gravity_varies(query);
+  if (circumstances.gravity_is_constant)
+    circumstances.gravity = gravity(view, robot, query, result.notes);
+  const std::vector<Step> together = steps_together(view, robot, query, resolved, circumstances);
+  std::vector<Step> uncoupled = available_steps(drivers, together, models, false);
+  std::vector<Step> available = available_steps(drivers, together, models, robot.coupled());
   if (control) {
     uncoupled = steps_with(*control, uncoupled);
     available = steps_with(*control, available);
@@ -414,16 +234,12 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   throw_with_query(query, report);
 
   graph::Terms& terms = store.terms();
-  Synthesis result;
   std::vector<Id> facts = {robot.root_frame, terms.literal(canonical_text(query))};
   if (control) add_elements(*control->task, facts);
   result.algorithm =
       terms.derived(terms.iri(std::string(kAlgorithmNamespace) + "Algorithm"), facts);
   transaction.clear(result.algorithm);
   algorithm::Builder builder(store, transaction, result.algorithm);
-  const bool falls = std::any_of(given.begin(), given.end(), [](const std::string& slot) {
-    return slot == "base-acceleration" || slot == "gravity";
-  });
   Context context{
       .store = store,
       .view = view,
@@ -438,7 +254,7 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   context.relations = resolved.relations;
   context.drivers = std::move(drivers);
   context.transaction = &transaction;
-  if (falls && !gravity_varies(query)) context.gravity = gravity(context, result.notes);
+  context.gravity = circumstances.gravity;
   context.inertias = stated_inertias(context);
   if (query.regroup && resolved.regroups) regroup(context, context.inertias);
   write_asks(store, transaction, result.algorithm, resolved, wrenches, context.drivers);
@@ -449,6 +265,8 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
 
   result.counts = run_sweeps(context, plan.sweeps);
   hand_out(context, resolved);
+  std::vector<std::string> why_held = hold(context, resolved, report);
+  throw_with_query(query, report);
   write_driver_list(context, transaction);
   transaction.clear(context.slots_graph());
   builder.finish();
@@ -458,6 +276,7 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   floating.reset();
   transaction.commit();
   result.why = plan.why;
+  result.why.insert(result.why.end(), why_held.begin(), why_held.end());
   if (control && control->task->robot_interface) attach(store, *control, result);
   return result;
 }

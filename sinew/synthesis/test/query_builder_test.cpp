@@ -39,7 +39,11 @@ const char* const kText = R"({
   ],
   "tips": ["tool", "D"],
   "forces": "apart",
-  "frames": "stationary"
+  "frames": "stationary",
+  "holds": [
+    { "@type": "Held", "quantity": "gravity" },
+    { "@type": "Held", "@id": "https://example.org/rarely", "quantity": "joint-force", "of": "one" }
+  ]
 })";
 
 Query in_words() {
@@ -66,7 +70,9 @@ Query in_words() {
       .to("tool")
       .to("D")
       .forces(Forces::kApart)
-      .frames(Frames::kStationary);
+      .frames(Frames::kStationary)
+      .holding("gravity")
+      .holding("joint-force", "one");
 }
 
 TEST(Ask, SaysWhatTheModelSays) {
@@ -75,6 +81,8 @@ TEST(Ask, SaysWhatTheModelSays) {
   // What is given is a set: the order does not matter.
   EXPECT_THAT(model.given, testing::UnorderedElementsAreArray(words.given));
   model.given = words.given;
+  EXPECT_THAT(model.held, testing::UnorderedElementsAreArray(words.held));
+  model.held = words.held;
   EXPECT_EQ(canonical_text(model), canonical_text(words));
 }
 
@@ -94,6 +102,43 @@ TEST(Ask, GivesTheSameAlgorithmAsTheModel) {
   for (std::size_t i = 0; i < a.schedule.size(); ++i) {
     EXPECT_EQ(a.closures[a.schedule[i]].op, b.closures[b.schedule[i]].op);
     EXPECT_EQ(a.closures[a.schedule[i]].arguments, b.closures[b.schedule[i]].arguments);
+  }
+}
+
+TEST(Held, MarksTheDataBlocksOfWhatIsGivenAskedOrComputedOnTheWay) {
+  graph::Store store;
+  write_small_robot(store);
+  const Query query = Ask(in_words()).holding("velocity-twist", "D-frame");
+  const Synthesis synthesis = synthesise(store, query);
+  const auto model = algorithm::read_checked(store.view(), synthesis.algorithm);
+  std::vector<std::string> held;
+  for (const algorithm::Block& block : model.blocks)
+    if (block.held) held.push_back(block.name);
+  EXPECT_THAT(held, testing::IsSupersetOf({"gravity", "force.one", "body-twist.D-frame"}));
+  EXPECT_THAT(held, testing::Not(testing::Contains("force.two")));
+  EXPECT_THAT(synthesis.why,
+              testing::IsSupersetOf({testing::HasSubstr("held: gravity (1 data block): changes"),
+                                     testing::HasSubstr("held: joint-force of one")}));
+}
+
+TEST(Held, RefusesWhatThereIsNothingOf) {
+  const std::pair<Query, std::string> refused[] = {
+      {Ask(named_query("fpk")).holding("mass-matrix"),
+       "mass-matrix: it is to be held, but is neither given, nor asked, nor computed on the way; "
+       "hold one of"},
+      {Ask(named_query("fpk")).holding("pose", "nobody"), "of nobody, but there is none of that"},
+      {Ask(named_query("rnea")).with_gravity(0, 0, -9.81).holding("gravity"),
+       "gravity: it is to be held, but is a constant; let it vary"},
+      {Ask(named_query("fpk")).holding("joint-velocity"), "joint-velocity: it is to be held, but"}};
+  for (const auto& [query, expected] : refused) {
+    graph::Store store;
+    write_small_robot(store);
+    try {
+      synthesise(store, query);
+      FAIL() << expected;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr(expected));
+    }
   }
 }
 
