@@ -12,7 +12,7 @@ namespace sinew::peers {
 
 // MuJoCo and DART want some mass [kg] and inertia [kg m^2] of every moving body; this much is
 // beyond what any comparison can see.
-inline constexpr double kLeastMass = 1e-12;
+inline constexpr double kLeastMass = 1e-14;
 
 inline urdf::ModelInterfaceSharedPtr parse_urdf(const std::string& text) {
   const auto model = urdf::parseURDF(text);

@@ -90,7 +90,7 @@ VectorXd positions(const TestJoint& j, const VectorXd& all) {
 
 }  // namespace
 
-DartAnswer ask_dart(const TestRobot& robot, const Eigen::Vector3d& gravity, const DenseState& state,
+PeerAnswer ask_dart(const TestRobot& robot, const Eigen::Vector3d& gravity, const DenseState& state,
                     const VectorXd& given_force) {
   Model model = build(robot, gravity);
   const auto n = static_cast<Eigen::Index>(robot.velocities);
@@ -112,7 +112,7 @@ DartAnswer ask_dart(const TestRobot& robot, const Eigen::Vector3d& gravity, cons
     for (Eigen::Index i = 0; i < n; ++i) result[i] = dart[place[static_cast<std::size_t>(i)]];
     return result;
   };
-  DartAnswer answer;
+  PeerAnswer answer;
   Skeleton& skeleton = *model.skeleton;
   skeleton.setVelocities(theirs(state.velocity));
   skeleton.setAccelerations(theirs(state.acceleration));
@@ -124,6 +124,13 @@ DartAnswer ask_dart(const TestRobot& robot, const Eigen::Vector3d& gravity, cons
     for (Eigen::Index c = 0; c < n; ++c)
       answer.mass_matrix(r, c) =
           M(place[static_cast<std::size_t>(r)], place[static_cast<std::size_t>(c)]);
+  for (BodyNode* body : model.bodies) {
+    answer.poses.push_back(body->getWorldTransform());
+    const Eigen::MatrixXd J = skeleton.getWorldJacobian(body);
+    answer.jacobians.emplace_back(6, n);
+    for (Eigen::Index c = 0; c < n; ++c)
+      answer.jacobians.back().col(c) = J.col(place[static_cast<std::size_t>(c)]);
+  }
   skeleton.setForces(theirs(given_force));
   skeleton.computeForwardDynamics();
   answer.acceleration = ours(skeleton.getAccelerations());

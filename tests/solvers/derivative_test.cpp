@@ -10,6 +10,7 @@
 #include <map>
 #include <random>
 
+#include "model_solver.h"
 #include "question.h"
 #include "random_urdf.h"
 #include "sinew/backend/compile.h"
@@ -182,6 +183,26 @@ TEST(Derivative, OfTreesAndFloatingBases) {
   expect_complex_steps(program_for({file.file}, "rnea", {"force/position", "force/velocity"}));
   expect_complex_steps(program_for({file.file}, "rnea", {"force/position"}, true));
   expect_complex_steps(program_for({file.file}, "aba", {"acceleration/force"}, true));
+}
+
+// With followers and gears; quaternions are differentiated as the four numbers that they are.
+TEST(Derivative, OfJointsOfEveryKindIsTheComplexStep) {
+  for (const std::uint32_t seed : {691u, 692u}) {
+    RandomJoints options;
+    options.joints = 7;
+    options.seed = seed;
+    const std::string model = turtle(random_joints(options));
+    for (const auto& [solver, of] : {std::pair<std::string, std::string>{"rnea", "force"},
+                                     {"bias", "bias-force"},
+                                     {"fvk", "twist"},
+                                     {"momentum", "centroidal-momentum"}}) {
+      SCOPED_TRACE(solver);
+      cli::QueryOptions query;
+      query.solver = solver;
+      query.derivatives = {of + "/position", of + "/velocity"};
+      expect_complex_steps(ModelSolver(model, query).program());
+    }
+  }
 }
 
 // By other means than those of the rules: fourth-order differences of another library.

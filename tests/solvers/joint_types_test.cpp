@@ -1,129 +1,14 @@
 // Joints of every kind, followers and rotors: every solver beside dense matrices.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <memory>
-
-#include "dart_joints.h"
-#include "dense_reference.h"
-#include "evaluator.h"
-#include "pipeline.h"
+#include "model_solver.h"
 #include "sinew/backend/compile.h"
 #include "sinew/program/scalar_program.h"
 
 namespace sinew::test {
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-const Eigen::Vector3d kGravity(0.4, -0.3, -9.81);
-
-// A solver for a model that is a file for as long as it is made.
-class Solver {
- public:
-  Solver(const std::string& model, const std::string& solver, bool floating = false) {
-    const auto file = std::filesystem::temp_directory_path() /
-                      ("sinew-joints-" + std::to_string(::getpid()) + ".ttl");
-    std::ofstream(file) << model;
-    cli::ModelOptions files;
-    files.files = {file.string()};
-    cli::QueryOptions query;
-    query.solver = solver;
-    query.gravity = "0.4,-0.3,-9.81";
-    query.floating = floating;
-    const auto models = cli::load(files);
-    program_ = cli::program_of(*models, files, query, "");
-    std::filesystem::remove(file);
-    evaluator_ = std::make_unique<cli::Evaluator>(program_, cli::How::kInterpreted,
-                                                  backend::JitLevel::kFast);
-  }
-
-  // Inputs by name: QUANTITY.JOINT, or QUANTITY.JOINT[k].
-  std::vector<double> inputs(const TestRobot& robot, const DenseState& state,
-                             const VectorXd& force = {}) const {
-    std::map<std::string, double> numbers;
-    for (const TestJoint& j : robot.joints) {
-      if (j.leader >= 0) continue;
-      const auto put = [&](const std::string& quantity, const VectorXd& all, int at, int count) {
-        for (int k = 0; k < count; ++k) {
-          const std::string name = quantity + "." + j.name;
-          const double number = all.size() > 0 ? all[at + k] : 0;
-          numbers[count == 1 ? name : name + "[" + std::to_string(k) + "]"] = number;
-          // What the numbers of a floating base are called by.
-          if (j.name == "base") numbers[quantity + ".link0[" + std::to_string(k) + "]"] = number;
-        }
-      };
-      put("position", state.position, j.position, j.positions);
-      put("velocity", state.velocity, j.velocity, j.velocities);
-      put("acceleration", state.acceleration, j.velocity, j.velocities);
-      put("force", force, j.velocity, j.velocities);
-    }
-    std::vector<double> in;
-    for (const std::string& name : cli::column_names(program_, evaluator_->interface().inputs))
-      in.push_back(numbers.at(name));
-    return in;
-  }
-
-  std::map<std::string, VectorXd> answer(const TestRobot& robot, const DenseState& state,
-                                         const VectorXd& force = {}) {
-    const std::vector<double> in = inputs(robot, state, force);
-    std::vector<double> out(evaluator_->interface().out_size);
-    evaluator_->evaluate(in.data(), out.data());
-    std::map<std::string, VectorXd> results;
-    for (const auto& slot : evaluator_->interface().outputs) {
-      const auto& variable = program_.variables[slot.variable];
-      results[variable.name] = Eigen::Map<VectorXd>(out.data() + slot.offset, variable.size);
-    }
-    return results;
-  }
-
-  const program::Program& program() const { return program_; }
-
-  // Rows and columns of matrices are in the order of the inputs, depth first; ours are not.
-  std::vector<Eigen::Index> order(const TestRobot& robot) const {
-    std::vector<Eigen::Index> list;
-    for (const auto& slot : program::interface_of(program_).inputs) {
-      const std::string& name = program_.variables[slot.variable].name;
-      if (!name.starts_with("position.")) continue;
-      for (const TestJoint& j : robot.joints)
-        if (name.substr(9) == j.name)
-          for (int k = 0; k < j.velocities; ++k) list.push_back(j.velocity + k);
-    }
-    return list;
-  }
-
- private:
-  program::Program program_;
-  std::unique_ptr<cli::Evaluator> evaluator_;
-};
-
-// force.j0, force.j1, … one after the other.
-VectorXd joined(const TestRobot& robot, const std::map<std::string, VectorXd>& results,
-                const std::string& quantity) {
-  VectorXd all(robot.velocities);
-  for (const TestJoint& j : robot.joints) {
-    if (j.leader >= 0) continue;
-    const VectorXd& own = results.at(quantity + "." + j.name);
-    EXPECT_EQ(own.size(), j.velocities) << j.name;
-    all.segment(j.velocity, j.velocities) = own;
-  }
-  return all;
-}
-
-MatrixXd matrix(const VectorXd& numbers, Eigen::Index rows) {
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return Eigen::Map<const RowMajor>(numbers.data(), rows, numbers.size() / rows);
-}
-
-double difference(const MatrixXd& a, const MatrixXd& b) {
-  if (a.rows() != b.rows() || a.cols() != b.cols()) return 1e300;
-  if (a.size() == 0) return 0;
-  return (a - b).cwiseAbs().maxCoeff() / std::max(1.0, b.cwiseAbs().maxCoeff());
-}
+using Solver = ModelSolver;
 
 void expect_agreement(const TestRobot& robot, unsigned states) {
   const std::string model = turtle(robot);
@@ -319,35 +204,6 @@ TEST(JointTypes, AreTheSameFromEveryBackEnd) {
                                           {backend::JitLevel::kFast, ""});
     jit(in.data(), out.data());
     EXPECT_LT(difference(out, expected), 1e-9) << "JIT";
-  }
-}
-
-// A library that nobody here wrote, with joints of the same kinds.
-TEST(JointTypes, AgreeWithDart) {
-  for (unsigned seed = 300; seed < 306; ++seed) {
-    RandomJoints options;
-    options.joints = 2 + 3 * (seed - 300);
-    options.couplings = options.rotors = false;
-    options.kinds = {"revolute", "prismatic", "helical", "universal",
-                     "planar",   "spherical", "floating"};
-    options.seed = seed;
-    SCOPED_TRACE(testing::Message() << "seed " << seed);
-    const TestRobot robot = random_joints(options);
-    const std::string model = turtle(robot);
-    Solver rnea(model, "rnea"), crba(model, "crba"), aba(model, "aba");
-    const auto order = crba.order(robot);
-    for (unsigned k = 0; k < 20; ++k) {
-      const DenseState state = random_state(robot, k);
-      const VectorXd force = joined(robot, rnea.answer(robot, state), "force");
-      const DartAnswer dart = ask_dart(robot, kGravity, state, force);
-      EXPECT_LT(difference(force, dart.force), 1e-9);
-      EXPECT_LT(difference(matrix(crba.answer(robot, state).at("mass-matrix"), robot.velocities),
-                           dart.mass_matrix(order, order)),
-                1e-9);
-      EXPECT_LT(difference(joined(robot, aba.answer(robot, state, force), "acceleration"),
-                           dart.acceleration),
-                1e-6);
-    }
   }
 }
 
