@@ -29,6 +29,13 @@ void write_output(const std::string& path, const std::string& text) {
   const fs::path target(path);
   std::error_code ignored;
   if (target.has_parent_path()) fs::create_directories(target.parent_path(), ignored);
+  // A device or a pipe is written to; only a file may be replaced by another one.
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
+    std::ofstream file(target, std::ios::binary);
+    file << text << std::flush;
+    if (!file) fail(path, "cannot be written");
+    return;
+  }
   const fs::path part = target.string() + ".part";
   {
     std::ofstream file(part, std::ios::binary);

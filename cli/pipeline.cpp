@@ -15,6 +15,7 @@
 #include "sinew/program/program_json.h"
 #include "sinew/rdf/catalogue/catalogue.h"
 #include "sinew/synthesis/combine_queries.h"
+#include "sinew/synthesis/query_faults.h"
 #include "sinew/synthesis/read_query.h"
 #include "sinew/synthesis/synthesise.h"
 #include "sinew/synthesis/task_query.h"
@@ -146,7 +147,16 @@ void normalise(Models& models, const synthesis::Query& query) {
   Report report;
   const model::Tree tree = model::normalise(models.store, models.places, options, report);
   print_notes(report);
-  report.throw_if_errors();
+  // What is wrong with a name of the query's is the query's fault.
+  const synthesis::Origin& origin =
+      query.tips_origin.place.file.empty() ? query.base_origin : query.tips_origin;
+  Report placed;
+  for (Problem problem : report.problems())
+    placed.add(problem.severity == Severity::kError && problem.place.file.empty() &&
+                       problem.iri.empty()
+                   ? synthesis::fault_in(query, origin, "", problem.what, problem.remedy)
+                   : problem);
+  placed.throw_if_errors();
   for (const std::string& note : tree.notes) print_note(note);
   model::write(tree, models.store);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sinew/synthesis/joint_edge.h"
+#include "sinew/synthesis/regroup.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -33,12 +34,14 @@ void check(Context& context, const Visit& visit) {
   if (joint->follows >= 0 || leads) return;
   const bool floats = joint->kind == "floating";
   if (behind > (floats ? 1 : 0) || joint->rotor_inertia > 0) return;
-  const auto inertia = context.inertias.find(visit["body"]);
-  if (inertia != context.inertias.end() && resists(inertia->second, joint->kind)) return;
+  // Regrouping may have moved mass onto a base, but none that is its own.
+  const auto inertias = floats ? stated_inertias(context) : context.inertias;
+  const auto inertia = inertias.find(visit["body"]);
+  if (inertia != inertias.end() && resists(inertia->second, joint->kind)) return;
   const std::string what =
       floats ? "it floats, has no mass, and nothing holds it but one joint: its acceleration is "
                "not defined"
-      : inertia == context.inertias.end()
+      : inertia == inertias.end()
           ? "it ends a chain and has no inertia: its joint's acceleration is not defined"
           : std::string("it ends a chain and has no inertia ") +
                 (joint->kind == "revolute" ? "about" : "along") +

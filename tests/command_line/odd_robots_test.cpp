@@ -53,7 +53,7 @@ TEST_F(OddRobot, WithoutAJointThatMovesHasNothingToAnswer) {
   expect_refused(fixed, {"--solver", "fpk"},
                  "pose: it is asked of every tip, but no link moves, so there is none; name the "
                  "frame of which it is asked");
-  EXPECT_EQ(stats(fixed, {"--ask", "pose of b"}).exit_code, 0);
+  EXPECT_EQ(stats(fixed, {"--ask", "pose of b", "--give", "joint-position"}).exit_code, 0);
   for (const std::string solver : {"rnea", "aba", "crba", "fpk"})
     EXPECT_EQ(stats(fixed, {"--solver", solver, "--floating"}).exit_code, 0) << solver;
 }
@@ -85,8 +85,13 @@ TEST_F(OddRobot, MayHaveNamesWithSpacesAndOfOtherAlphabets) {
                             joint("joint one", "continuous", "base link", "Glied ä") +
                             joint("关节", "continuous", "Glied ä", "手");
   EXPECT_EQ(stats(robot, {"--solver", "rnea", "--base", "base link", "--tip", "手"}).exit_code, 0);
-  EXPECT_EQ(stats(robot, {"--solver", "fpk", "--ask", "pose of 手 wrt base%20link"}).exit_code, 0);
-  EXPECT_EQ(stats(robot, {"--solver", "rnea", "--ask", "joint-wrench of 关节"}).exit_code, 0);
+  EXPECT_EQ(
+      stats(robot, {"--ask", "pose of 手 wrt base%20link", "--give", "joint-position"}).exit_code,
+      0);
+  const std::vector<std::string> wrench = {
+      "--ask",  "joint-wrench of 关节", "--give", "joint-position", "--give", "joint-velocity",
+      "--give", "joint-acceleration",   "--give", "gravity"};
+  EXPECT_EQ(stats(robot, wrench).exit_code, 0);
 }
 
 TEST_F(OddRobot, OfOneJointOrOfSixtyIsAnswered) {
