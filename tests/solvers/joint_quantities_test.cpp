@@ -100,11 +100,15 @@ TEST(JointTypes, EveryQuantityAgreesWithDenseMatrices) {
                   0.5 * state.velocity.dot(mass * state.velocity),
                   1e-9 * std::max(1.0, found.at("kinetic-energy")[0]));
       const auto wrenches = body_wrenches(robot, dense, kGravity, state);
-      for (std::size_t j = 0; j < robot.joints.size(); ++j)
-        EXPECT_LT(difference(found.at("joint-wrench." + robot.joints[j].name),
+      for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+        const TestJoint& joint = robot.joints[j];
+        // A helical joint that follows another is asked for by no name yet (docs/joints.md).
+        if (joint.kind == "helical" && joint.leader >= 0) continue;
+        EXPECT_LT(difference(found.at("joint-wrench." + joint.name),
                              joint_wrench(robot, dense, wrenches, state.position, j)),
                   1e-8)
-            << robot.joints[j].name << ", " << robot.joints[j].kind;
+            << joint.name << ", " << joint.kind;
+      }
     }
   }
 }
