@@ -65,4 +65,21 @@ std::vector<std::filesystem::path> gen3_models() {
   return files;
 }
 
+Columns columns_of(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string line, word;
+  std::getline(lines, line);
+  std::vector<std::string> names;
+  for (std::istringstream header(line); std::getline(header, word, ',');) names.push_back(word);
+  Columns columns;
+  while (std::getline(lines, line)) {
+    std::istringstream row(line);
+    for (const std::string& name : names) {
+      std::getline(row, word, ',');
+      columns[name].push_back(std::stod(word));
+    }
+  }
+  return columns;
+}
+
 }  // namespace sinew::test

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ struct Result {
   std::string out, err;
 };
 
-// Runs `sinew` with these arguments; a run that takes longer than `seconds` ends with exit code 124.
+// Runs `sinew` with these arguments; a run that takes longer than `seconds` ends with exit code
+// 124.
 Result run_sinew(const std::vector<std::string>& arguments, int seconds = 60);
 
 // A folder of its own for each test, removed at the end.
@@ -31,6 +33,10 @@ class Folder {
 
 void write_file(const std::filesystem::path& path, const std::string& text);
 std::string read_file(const std::filesystem::path& path);
+
+// The columns of a CSV file of numbers, by their names.
+using Columns = std::map<std::string, std::vector<double>>;
+Columns columns_of(const std::string& csv);
 
 // The model files of the Gen3 that the project ships, in a fixed order.
 std::vector<std::filesystem::path> gen3_models();

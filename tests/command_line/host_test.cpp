@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include "command.h"
 
@@ -13,26 +12,8 @@ namespace sinew::test {
 namespace {
 
 using testing::HasSubstr;
-using Columns = std::map<std::string, std::vector<double>>;
 
 const std::string kCascade = SINEW_SOURCE_DIR "/examples/gen3_cascade/";
-
-Columns columns_of(const std::string& csv) {
-  std::istringstream lines(csv);
-  std::string line, word;
-  std::getline(lines, line);
-  std::vector<std::string> names;
-  for (std::istringstream header(line); std::getline(header, word, ',');) names.push_back(word);
-  Columns columns;
-  while (std::getline(lines, line)) {
-    std::istringstream row(line);
-    for (const std::string& name : names) {
-      std::getline(row, word, ',');
-      columns[name].push_back(std::stod(word));
-    }
-  }
-  return columns;
-}
 
 // The cascade that ships, with one text of one file replaced by another.
 class HostModel : public testing::Test {

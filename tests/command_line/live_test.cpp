@@ -12,30 +12,12 @@ namespace sinew::test {
 namespace {
 
 using testing::HasSubstr;
-using Columns = std::map<std::string, std::vector<double>>;
 
 std::vector<std::string> with_gen3(std::vector<std::string> before,
                                    const std::vector<std::string>& after) {
   for (const auto& file : gen3_models()) before.push_back(file.string());
   before.insert(before.end(), after.begin(), after.end());
   return before;
-}
-
-Columns columns_of(const std::string& csv) {
-  std::istringstream lines(csv);
-  std::string line, word;
-  std::getline(lines, line);
-  std::vector<std::string> names;
-  for (std::istringstream header(line); std::getline(header, word, ',');) names.push_back(word);
-  Columns columns;
-  while (std::getline(lines, line)) {
-    std::istringstream row(line);
-    for (const std::string& name : names) {
-      std::getline(row, word, ',');
-      columns[name].push_back(std::stod(word));
-    }
-  }
-  return columns;
 }
 
 std::size_t count(const std::string& text, const std::string& what) {
