@@ -7,6 +7,7 @@
 #include <cfloat>
 #include <cmath>
 #include <unordered_set>
+#include <utility>
 
 #include "sinew/backend/angle_groups.h"
 #include "sinew/backend/flat_parts.h"
@@ -137,6 +138,7 @@ class Emitter {
       const std::string function = prefix_ + "_" + result_.part_names.back();
       line(fmt::format("{}(in, kept{});", function, arguments));
       block_ = &result_.parts;
+      const bool zero_outside = std::exchange(zero_, false);
       forget();
       block_->add(fmt::format("{0}_APART void {1}(const {3} *in, {3} *kept{2}) {{", upper_,
                               function, parameters, scalar_));
@@ -152,6 +154,7 @@ class Emitter {
       block_->add("}");
       block_->add("");
       block_ = &result_.code;
+      zero_ = zero_outside;
     }
     forget();
   }
@@ -203,7 +206,8 @@ class Emitter {
     if (!block_form_) {
       line(fmt::format("const {} {} = {};", scalar_, names_[i], element(place)));
     } else if (std::string_view(place.array) == "held") {
-      line(fmt::format("const {} {} = {} - ({}){{ 0 }};", type_, names_[i], element(place), type_));
+      declare_zero();
+      line(fmt::format("const {} {} = {} - zero;", type_, names_[i], element(place)));
     } else {
       line(
           fmt::format("{0} {1}; memcpy(&{1}, {2}, sizeof {1});", type_, names_[i], address(place)));
@@ -446,6 +450,12 @@ class Emitter {
     return n;
   }
 
+  // A vector of zeros, once in each function. C++ has no compound literals.
+  void declare_zero() {
+    if (!zero_) line(fmt::format("const {} zero = {{ 0 }};", type_));
+    zero_ = true;
+  }
+
   void write(std::uint32_t k) {
     const Ref result = computation_.results[k];
     const FlatPlace& place = layout_.results[k];
@@ -455,10 +465,7 @@ class Emitter {
       return;
     }
     const std::string number = dag_.is_constant(result) ? value(result) + " + zero" : value(result);
-    if (dag_.is_constant(result) && !zero_) {
-      line(fmt::format("const {} zero = {{ 0 }};", type_));
-      zero_ = true;
-    }
+    if (dag_.is_constant(result)) declare_zero();
     line(fmt::format("{{ const {0} y = {1}; memcpy({2}, &y, sizeof y); }}", type_, number,
                      address(place)),
          origin);

@@ -381,5 +381,17 @@ TEST(ReadableStyle, RefusesWhatOnlyTheFlatStyleCanDo) {
   }
 }
 
+TEST(Update, IsStrictCppToo) {
+  backend::COptions options = named();
+  options.partial.slow = {"position"};
+  const backend::GeneratedCode code = generate_c(chain(), options);
+  for (const char* compiler : {"g++ -x c++ -O0", "clang++-19 -x c++ -O0"}) {
+    SCOPED_TRACE(compiler);
+    const Compiled compiled(code,
+                            fmt::format("{} -Wall -Wextra -Werror -pedantic chain.c", compiler));
+    EXPECT_NE(compiled.get<void(const double*, double*)>("chain_update"), nullptr);
+  }
+}
+
 }  // namespace
 }  // namespace sinew
