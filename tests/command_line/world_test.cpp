@@ -171,6 +171,19 @@ TEST(WorldCommand, TheDocumentedSceneAnswersAsDocumented) {
               HasSubstr("position    0.8 1 0 m"));
 }
 
+// What is easily written for shaped-as is no word of the context, and not dropped in silence.
+TEST(WorldCommand, ATermThatIsNoneIsAFault) {
+  const Folder folder;
+  std::string text = read_file(kSource + "/examples/assembly_cell/shapes.jsonld");
+  const std::string term = "\"shaped-as\"";
+  text.replace(text.find(term), term.size(), "\"shape\"");
+  write_file(folder / "shapes.jsonld", text);
+  const Result bad = run_sinew({"check", kSource + "/examples/assembly_cell/scene.jsonld",
+                                (folder / "shapes.jsonld").string()});
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_THAT(bad.err, HasSubstr("no context defines \"shape\""));
+}
+
 TEST(WorldCommand, SaysWhatItDoesAndWhatIsMissing) {
   EXPECT_THAT(run_sinew({"world", "--help"}).out, HasSubstr("relations"));
   EXPECT_EQ(run_sinew({"world"}).exit_code, 2);
