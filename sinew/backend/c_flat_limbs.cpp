@@ -183,6 +183,16 @@ class Emitter {
     return list + " }";
   }
 
+  // A vector of zeros of the region's type. C++ has no compound literals.
+  std::string zero() {
+    std::string& name = zeros_[width_of(region().lanes)];
+    if (name.empty()) {
+      name = unique("zero");
+      line(fmt::format("const {} {} = {{ 0 }};", type(), name));
+    }
+    return name;
+  }
+
   // An input of the present region, by a name of the region's type.
   std::string input(const Node& node) {
     const Sources& sources = region().inputs[node.index];
@@ -201,7 +211,8 @@ class Emitter {
     const bool equal = std::all_of(sources.begin(), sources.end(),
                                    [&](const LimbSource& source) { return source == first; });
     if (equal) {
-      line(fmt::format("const {0} {1} = {2} - ({0}){{ 0 }};", type(), name, text(first)));
+      const std::string number = text(first);
+      line(fmt::format("const {} {} = {} - {};", type(), name, number, zero()));
       return name;
     }
     std::vector<std::string> texts;
@@ -388,6 +399,7 @@ class Emitter {
   std::vector<std::uint32_t> later_;  // results that no region computes
   std::size_t at_ = 0;                // the region
   std::size_t count_ = 0, groups_ = 0;
+  std::map<unsigned, std::string> zeros_;  // by width: a vector of zeros
   std::unordered_set<std::string> used_ = {"in", "out", "angle", "sine", "cosine"};
   LimbBody body_;
 };
