@@ -63,10 +63,21 @@ struct Posting {
   std::uint32_t tail;      // writer only
   std::uint32_t count;     // records in the list, also those that were removed meanwhile
   std::uint32_t patience;  // writer only: removals until the list is swept
-  // Of a predicate's list: how many SP and PO lists with it are not empty.
-  std::uint32_t distinct_subjects, distinct_objects;
+  // Of a predicate's list: how many SP and PO lists with it are not empty (kSubjects, kObjects). Of
+  // an SP list: a filter of its objects, from which nothing is taken away again (ObjectBit).
+  std::uint32_t summary[2];
 };
 static_assert(sizeof(Posting) == 32);
+
+enum : std::uint32_t { kSubjects, kObjects };  // in Posting::summary
+
+// Where a filter has the bit of an object. What a node's types are not, which is what most queries
+// ask of them, is so known without a walk along them.
+struct ObjectBit {
+  explicit ObjectBit(std::uint32_t object)
+      : word((object * 0x9E3779B1u) >> 31), mask(1u << ((object * 0x9E3779B1u) >> 26 & 31)) {}
+  std::uint32_t word, mask;
+};
 
 // The lists of one term, 0 where it has none.
 struct Node {
@@ -214,13 +225,19 @@ struct Records {
   // of the three is searched.
   std::uint32_t find(std::uint32_t subject, std::uint32_t predicate, std::uint32_t object,
                      Version version) const {
-    return find(subject, predicate, object, version, pair(kListSP, subject, predicate, version));
+    return find(subject, predicate, object, version,
+                find_pair(kListSP, {subject, predicate}, version));
   }
+  // `of_pair`: what find_pair has found in kListSP.
   std::uint32_t find(std::uint32_t subject, std::uint32_t predicate, std::uint32_t object,
-                     Version version, Run of_pair) const {
+                     Version version, SlotTable::Slot of_pair) const {
     constexpr std::uint32_t kShort = 8;
+    if (of_pair && of_pair.marked()) {
+      const ObjectBit bit(object);
+      if (!(load(postings[of_pair.number()].summary[bit.word]) & bit.mask)) return 0;
+    }
     List list = kListSP;
-    Run best = of_pair;
+    Run best = run_of(of_pair);
     if (best.count > kShort) {
       const Run po = pair(kListPO, predicate, object, version);
       if (po.count < best.count) best = po, list = kListPO;

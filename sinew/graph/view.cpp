@@ -52,12 +52,12 @@ std::size_t View::estimate(Id subject, Id predicate, Id object) const {
 
 std::size_t View::distinct_subjects(Id predicate) const {
   const Posting* posting = records().single(kListP, predicate.value);
-  return posting ? load(posting->distinct_subjects) : 0;
+  return posting ? load(posting->summary[kSubjects]) : 0;
 }
 
 std::size_t View::distinct_objects(Id predicate) const {
   const Posting* posting = records().single(kListP, predicate.value);
-  return posting ? load(posting->distinct_objects) : 0;
+  return posting ? load(posting->summary[kObjects]) : 0;
 }
 
 std::size_t View::size() const {

@@ -48,7 +48,7 @@ inline std::uint32_t Writer::graph_number(std::uint32_t name) {
 void Writer::count_pair(List list, std::uint32_t predicate, int by) {
   if (list == kListOS) return;
   Posting& all = single_posting(kListP, predicate);
-  std::uint32_t& counter = list == kListSP ? all.distinct_subjects : all.distinct_objects;
+  std::uint32_t& counter = all.summary[list == kListSP ? kSubjects : kObjects];
   store(counter, counter + static_cast<std::uint32_t>(by));
 }
 
@@ -58,6 +58,11 @@ inline void Writer::append(Posting& posting, List list, std::uint32_t triple,
   store(posting.tail == 0 ? posting.head : records.triples[posting.tail].next[list], triple);
   posting.tail = triple;
   store(posting.count, posting.count + 1);
+}
+
+inline void Writer::filter(Posting& posting, std::uint32_t triple) const {
+  const ObjectBit bit(records.triples[triple].object);
+  store(posting.summary[bit.word], posting.summary[bit.word] | bit.mask);
 }
 
 inline Writer::PairPlace Writer::place(List list, const PairKey& key, Version version) const {
@@ -81,9 +86,11 @@ bool Writer::append_pair(List list, const PairKey& key, const PairPlace& place,
     made.tail = only;
     store(made.count, 1);
     store(made.head, only);
+    if (list == kListSP) filter(made, only);
     table.replace(place.at, number, true);
   }
   Posting& posting = records.postings[number];
+  if (list == kListSP) filter(posting, triple);
   append(posting, list, triple, tail_before);
   return posting.count == 1;
 }
@@ -147,9 +154,8 @@ bool Writer::add(const Quad& quad, Version version) {
 
   Change change{};
   const PairPlace at_subject = place(kListSP, of_subject, version);
-  const std::uint32_t present = at_subject.found ? records.find(subject, predicate, object, version,
-                                                                records.run_of(at_subject.found))
-                                                 : 0;
+  const std::uint32_t present =
+      at_subject.found ? records.find(subject, predicate, object, version, at_subject.found) : 0;
   if (present) {
     if (find_membership(present, quad.graph.value)) return false;
     change.kind = Change::kAddMembership;
@@ -180,11 +186,11 @@ bool Writer::add(const Quad& quad, Version version) {
   append(all, kListP, number, change.tails[kListP]);
   append(to, kListO, number, change.tails[kListO]);
   if (append_pair(kListSP, of_subject, at_subject, number, change.tails[kListSP])) {
-    store(all.distinct_subjects, all.distinct_subjects + 1);
+    store(all.summary[kSubjects], all.summary[kSubjects] + 1);
   }
   const PairPlace at_object = place(kListPO, of_object, version);
   if (append_pair(kListPO, of_object, at_object, number, change.tails[kListPO])) {
-    store(all.distinct_objects, all.distinct_objects + 1);
+    store(all.summary[kObjects], all.summary[kObjects] + 1);
   }
   change.pairs[kListSP] = at_subject.at;
   change.pairs[kListPO] = at_object.at;

@@ -74,6 +74,8 @@ class Writer {
                    std::uint32_t& tail_before);
   void append_between(std::uint32_t triple, Version version);
   void make_crowded(Posting& posting, List list, Version version);
+  // Adds the triple's object to the filter of its SP list.
+  void filter(Posting& posting, std::uint32_t triple) const;
   void append(Posting& posting, List list, std::uint32_t triple, std::uint32_t& tail_before);
   void undo_pair(List list, std::uint32_t triple, std::uint32_t at, std::uint32_t tail_before);
   void undo_append(Posting& posting, List list, std::uint32_t tail_before);

@@ -51,7 +51,8 @@ TEST(Links, AreThoseOfTheStatesListsAfterAnyEdits) {
           relations.push_back(edit.add_relation({.name = name, .of = of, .with_respect_to = to}));
         }
       } else if (what == 8) {
-        edit.add_relation({.name = name, .of = any(), .kind = RelationKind::kProperty});
+        edit.add_relation(
+            {.name = name, .of = any(), .with_respect_to = {}, .kind = RelationKind::kProperty});
       } else if (!relations.empty()) {
         std::swap(relations[random() % relations.size()], relations.back());
         edit.remove(relations.back());
