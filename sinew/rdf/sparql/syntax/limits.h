@@ -12,7 +12,7 @@ namespace sinew::rdf::sparql {
 inline constexpr std::size_t kMaximumNesting = 200;
 // Longest chain of operators that one solution passes through, and longest chain of OPTIONALs,
 // MINUSes, BINDs and arithmetic operators; bounds the stack of the evaluator.
-inline constexpr std::size_t kMaximumChain = 4000;
+inline constexpr std::size_t kMaximumChain = 3000;
 inline constexpr std::size_t kMaximumGroupChain = 1000;
 // Most variables (blank nodes count) in one query; bounds the width of a solution.
 inline constexpr std::size_t kMaximumVariables = 100'000;
