@@ -157,8 +157,10 @@ std::size_t Triggers::look(Stamp now) {
     return a.trigger->spec.priority > b.trigger->spec.priority;
   });
   for (const Happened& one : happened) {
-    const auto work = [one] {
-      if (one.trigger->alive) one.trigger->spec.callback(one.event);
+    // Weak: the trigger holds the queue that this may wait in.
+    const auto work = [waiting = std::weak_ptr(one.trigger), event = one.event] {
+      const auto trigger = waiting.lock();
+      if (trigger && trigger->alive) trigger->spec.callback(event);
     };
     if (const auto* queue = std::get_if<std::shared_ptr<EventQueue>>(&one.trigger->listener)) {
       (*queue)->push(one.trigger->spec.priority, work);
