@@ -69,7 +69,8 @@ inline constexpr std::size_t kMaximumTriggers = 1u << 16;
 
 class Triggers {
  public:
-  // The world must outlive them, where it is.
+  // The world must outlive them, where it is. What waits in a queue when they are destroyed is not
+  // called.
   explicit Triggers(const World& world) : world_(world) {}
   Triggers(const Triggers&) = delete;
 
