@@ -1,7 +1,5 @@
 #include "prefixes.h"
 
-#include <regex>
-
 namespace sinew::cli {
 namespace {
 
@@ -43,18 +41,6 @@ const rdf::Prefixes& known_prefixes() {
     return p;
   }();
   return prefixes;
-}
-
-std::string with_known_prefixes(const std::string& text) {
-  std::string declarations;
-  for (const rdf::Prefix& prefix : known_prefixes().list()) {
-    const std::regex used("(^|[^A-Za-z0-9_-])" + prefix.name + ":");
-    const std::regex declared("PREFIX\\s+" + prefix.name + ":", std::regex::icase);
-    if (std::regex_search(text, used) && !std::regex_search(text, declared)) {
-      declarations += "PREFIX " + prefix.name + ": <" + prefix.iri + "> ";
-    }
-  }
-  return declarations + text;
 }
 
 }  // namespace sinew::cli

@@ -40,8 +40,9 @@ Json ask(Models& models, graph::Id algorithm, const std::string& text) {
   std::string query = text;
   const auto where = query.find("WHERE {");
   query.replace(where, 7, "FROM <" + std::string(terms.text(algorithm)) + "> WHERE {");
-  const auto answer =
-      rdf::sparql::query(models.store.view(), terms, with_known_prefixes(query), {}).results;
+  rdf::sparql::QueryOptions options;
+  options.prefixes = &known_prefixes();
+  const auto answer = rdf::sparql::query(models.store.view(), terms, query, options).results;
   Json rows = Json::object();
   for (const auto& row : answer.rows) {
     const std::string_view iri = terms.text(row[0]);
@@ -121,14 +122,15 @@ std::string answers_of(Models& models, graph::Id algorithm, const std::vector<st
                        const std::vector<std::string>& queries, const std::string& format) {
   program::write_facts(models.store, algorithm);
   for (const std::string& update : weaves)
-    algorithm::weave(models.store, algorithm, with_known_prefixes(read_input(update)), update,
-                     algorithm::Rounds::kUntilSettled);
+    algorithm::weave(models.store, algorithm, read_input(update), update,
+                     algorithm::Rounds::kUntilSettled, &known_prefixes());
   std::string text;
   for (const std::string& file : queries) {
     rdf::sparql::QueryOptions options;
     options.name = file;
-    const auto answer = rdf::sparql::query(models.store.view(), models.store.terms(),
-                                           with_known_prefixes(read_input(file)), options);
+    options.prefixes = &known_prefixes();
+    const auto answer =
+        rdf::sparql::query(models.store.view(), models.store.terms(), read_input(file), options);
     if (answer.kind == rdf::sparql::AnswerKind::kTriples)
       throw Error(Problem{{file, 1, 0},
                           "",

@@ -56,10 +56,10 @@ int run_weave(Arguments arguments) {
   const graph::Id algorithm = algorithm_of(*models, models_options, {});
   if (!robot.empty()) model::write(robot_tree(*models, {}), models->store);
   if (facts) program::write_facts(models->store, algorithm);
-  const std::string text = with_known_prefixes(read_input(update));
-  const auto counts =
-      algorithm::weave(models->store, algorithm, text, update,
-                       repeat ? algorithm::Rounds::kUntilSettled : algorithm::Rounds::kOne);
+  const std::string text = read_input(update);
+  const auto counts = algorithm::weave(
+      models->store, algorithm, text, update,
+      repeat ? algorithm::Rounds::kUntilSettled : algorithm::Rounds::kOne, &known_prefixes());
   std::cerr << counts.added << " triples added, " << counts.removed << " removed";
   if (repeat) std::cerr << " in " << counts.rounds << " rounds";
   std::cerr << "\n";

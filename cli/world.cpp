@@ -195,11 +195,14 @@ int relations(LoadedScene& scene, const Asked& asked) {
   }
   graph::Store facts;
   const auto stated = state_facts(relations, space, facts, viewer_of(scene, asked));
+  rdf::sparql::QueryOptions options;
+  options.prefixes = &known_prefixes();
   const auto answer = rdf::sparql::query(
       facts.view(), facts.terms(),
-      with_known_prefixes("SELECT ?first ?relation ?second ?third ?because WHERE { ?fact w:called "
-                          "?relation ; w:first ?first ; w:second ?second ; w:because ?because "
-                          "OPTIONAL { ?fact w:third ?third } } ORDER BY ?first ?relation ?second"));
+      "SELECT ?first ?relation ?second ?third ?because WHERE { ?fact w:called ?relation ; "
+      "w:first ?first ; w:second ?second ; w:because ?because "
+      "OPTIONAL { ?fact w:third ?third } } ORDER BY ?first ?relation ?second",
+      options);
   for (const auto& row : answer.results.rows) {
     const auto text = [&](std::size_t i) { return std::string(facts.terms().text(row[i])); };
     if (!asked.relation.empty() && text(1) != asked.relation) continue;
@@ -252,9 +255,10 @@ int query(LoadedScene& scene, const Asked& asked) {
   }
   rdf::sparql::QueryOptions options;
   options.name = asked.file;
-  const auto answer = rdf::sparql::query(
-      store.view(), store.terms(),
-      with_known_prefixes(asked.file.empty() ? asked.text : read_input(asked.file)), options);
+  options.prefixes = &known_prefixes();
+  const auto answer =
+      rdf::sparql::query(store.view(), store.terms(),
+                         asked.file.empty() ? asked.text : read_input(asked.file), options);
   if (answer.kind == rdf::sparql::AnswerKind::kTriples) {
     rdf::WriteOptions write_options;
     write_options.prefixes = known_prefixes();

@@ -30,24 +30,37 @@ std::string common_base(const graph::View& view) {
   return slash == std::string::npos || slash < 9 ? "" : common->substr(0, slash + 1);
 }
 
+// The contexts of robot models.
+std::vector<std::string> model_contexts() {
+  return {metamodel("geometry/structural-entities.json"),
+          metamodel("geometry/coordinates.json"),
+          metamodel("geometry/spatial-relations.json"),
+          metamodel("kinematic-chain/structural-entities.json"),
+          metamodel("kinematic-chain/state.json"),
+          metamodel("newtonian-rigid-body-dynamics/structural-entities.json"),
+          metamodel("newtonian-rigid-body-dynamics/coordinates.json"),
+          metamodel("qudt.json"),
+          "https://w3id.org/sinew/kinematic-chain.json",
+          "https://w3id.org/sinew/shape.json"};
+}
+
 }  // namespace
 
 std::string models_as_jsonld(const graph::View& view) {
   const catalogue::Catalogue catalogue;
   jsonld::WriteOptions options;
-  options.contexts = {metamodel("geometry/structural-entities.json"),
-                      metamodel("geometry/coordinates.json"),
-                      metamodel("geometry/spatial-relations.json"),
-                      metamodel("kinematic-chain/structural-entities.json"),
-                      metamodel("kinematic-chain/state.json"),
-                      metamodel("newtonian-rigid-body-dynamics/structural-entities.json"),
-                      metamodel("newtonian-rigid-body-dynamics/coordinates.json"),
-                      metamodel("qudt.json"),
-                      "https://w3id.org/sinew/kinematic-chain.json",
-                      "https://w3id.org/sinew/shape.json"};
+  options.contexts = model_contexts();
   const std::string base = common_base(view);
   if (!base.empty()) options.prefixes = {{"rob", base}};
   return jsonld::Writer(catalogue, options).write_all(view);
+}
+
+std::string triples_as_jsonld(std::span<const graph::Quad> triples, const graph::Terms& terms) {
+  const catalogue::Catalogue catalogue;
+  jsonld::WriteOptions options;
+  options.contexts = model_contexts();
+  options.sorted = true;
+  return jsonld::Writer(catalogue, options).write(triples, terms);
 }
 
 std::string algorithm_as_jsonld(const graph::View& view, graph::Id algorithm) {

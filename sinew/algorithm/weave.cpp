@@ -58,7 +58,7 @@ void copy_graph(const graph::View& from, Id graph, Terms& terms, graph::Transact
 }  // namespace
 
 WeaveCounts weave(graph::Store& store, Id algorithm, std::string_view update,
-                  const std::string& name, Rounds rounds) {
+                  const std::string& name, Rounds rounds, const rdf::Prefixes* prefixes) {
   // A store of its own, where the algorithm is the default graph.
   graph::Store loom;
   const Id woven = loom.terms().iri(store.terms().text(algorithm));
@@ -68,6 +68,7 @@ WeaveCounts weave(graph::Store& store, Id algorithm, std::string_view update,
     copy_graph(store.view(), tree, loom.terms(), change, loom.terms().iri(kNormalisedGraph));
   rdf::sparql::UpdateOptions options;
   options.name = name;
+  options.prefixes = prefixes;
   WeaveCounts total;
   for (;;) {
     const rdf::sparql::UpdateCounts counts =

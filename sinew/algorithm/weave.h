@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "sinew/graph/store.h"
+#include "sinew/rdf/iri/prefixes.h"
 
 namespace sinew::algorithm {
 
@@ -29,9 +30,10 @@ enum class Rounds {
   kUntilSettled,  // until it changes nothing: for what no single query reaches (weaves/depths.rq)
 };
 
-// `name` is that of the update, for messages. Throws Error; also when an update still changes
-// something after kMaximumRounds.
+// `name` is that of the update, for messages; `prefixes` are those that it may use without
+// declaring them. Throws Error; also when an update still changes something after kMaximumRounds.
 WeaveCounts weave(graph::Store& store, graph::Id algorithm, std::string_view update,
-                  const std::string& name, Rounds rounds = Rounds::kOne);
+                  const std::string& name, Rounds rounds = Rounds::kOne,
+                  const rdf::Prefixes* prefixes = nullptr);
 
 }  // namespace sinew::algorithm

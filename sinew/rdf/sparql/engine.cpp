@@ -20,6 +20,7 @@ syntax::ParseOptions parse_options(const QueryOptions& options) {
   result.name = options.name;
   result.base = options.base;
   result.limits = options.limits;
+  result.prefixes = options.prefixes;
   return result;
 }
 

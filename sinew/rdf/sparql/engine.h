@@ -1,7 +1,8 @@
 // SPARQL 1.1 Query and Update, all of it, on a view or a transaction of the graph.
 //
-//   const Answer answer = query(store.view(), store.terms(), "SELECT ?s WHERE { ?s a
-//   <http://e/Joint> }"); for (const auto& row : answer.results.rows) ...
+//   const Answer answer =
+//       query(store.view(), store.terms(), "SELECT ?s WHERE { ?s a <http://e/Joint> }");
+//   for (const auto& row : answer.results.rows) ...
 //
 // For queries that run often or with parameters see `prepared.h`. Terms that a query computes and
 // returns are added to `terms`; as always only one thread at a time may do that.
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "sinew/graph/store.h"
+#include "sinew/rdf/iri/prefixes.h"
 #include "sinew/rdf/results/result_set.h"
 #include "sinew/rdf/sparql/prepared.h"
 #include "sinew/rdf/sparql/syntax/limits.h"
@@ -30,6 +32,7 @@ struct QueryOptions {
   // What a pattern outside GRAPH is matched against, unless the text has FROM or USING.
   graph::Dataset dataset = graph::Dataset::kUnion;
   Limits limits = {};
+  const Prefixes* prefixes = nullptr;  // that the text may use without declaring them
 };
 
 enum class AnswerKind { kTable, kBoolean, kTriples };

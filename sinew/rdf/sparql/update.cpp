@@ -204,6 +204,7 @@ syntax::Update parse(graph::Terms& terms, std::string_view text, const QueryOpti
   parse_options.name = options.name.empty() ? "update" : options.name;
   parse_options.base = options.base;
   parse_options.limits = options.limits;
+  parse_options.prefixes = options.prefixes;
   return syntax::parse_update(terms, text, parse_options);
 }
 

@@ -41,8 +41,13 @@ std::string Parser::iri_text() {
   if (token_.kind == TokenKind::kName) {
     const auto found = prefixes_.find(token_.prefix);
     if (!found) {
-      fail(fmt::format("the prefix '{}:' is not declared", token_.prefix),
-           fmt::format("declare it at the beginning: PREFIX {}: <iri>", token_.prefix));
+      std::string remedy =
+          fmt::format("declare it at the beginning: PREFIX {}: <iri>", token_.prefix);
+      if (options_.prefixes && !options_.prefixes->empty()) {
+        remedy += "; without that there are";
+        for (const Prefix& known : options_.prefixes->list()) remedy += " " + known.name + ":";
+      }
+      fail(fmt::format("the prefix '{}:' is not declared", token_.prefix), std::move(remedy));
     }
     return std::string(*found) + token_.text;
   }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "sinew/graph/terms.h"
+#include "sinew/rdf/iri/prefixes.h"
 #include "sinew/rdf/sparql/syntax/ast.h"
 #include "sinew/rdf/sparql/syntax/limits.h"
 
@@ -17,6 +18,7 @@ struct ParseOptions {
   std::string name;  // of the text, for messages: a file name, or empty
   std::string base;  // IRI that relative IRIs are resolved against; empty: they are errors
   Limits limits = {};
+  const Prefixes* prefixes = nullptr;  // declared before the text begins; alive during the call
   // Parameters are variables that have a value before the query begins: they may be selected beside
   // aggregates without being a group key.
   std::span<const std::string_view> parameters = {};

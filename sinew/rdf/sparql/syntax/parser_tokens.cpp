@@ -28,6 +28,7 @@ Parser::Parser(graph::Terms& terms, std::string_view text, const ParseOptions& o
       source_(make_source(text, options)),
       lexer_(*source_),
       base_(options.base) {
+  if (options.prefixes) prefixes_ = *options.prefixes;
   lexer_.next(token_);
 }
 
