@@ -53,7 +53,8 @@ Library load() {
     }
     library.compile = reinterpret_cast<JitCompile*>(dlsym(handle, kJitEntryName));
     if (library.compile != nullptr) return library;
-    library.fault = path.string() + " has no " + kJitEntryName;
+    library.fault = path.string() + " belongs to another version (it has no " + kJitEntryName +
+                    "); build or install both together";
   }
   if (library.fault.empty()) library.fault = "libsinew_jit.so is not there";
   return library;

@@ -14,6 +14,9 @@ struct JitWanted {
 
 using JitCompile = void(const program::Computation& computation, const program::LimbProgram* limbs,
                         const JitOptions& options, const JitWanted& wanted, JitCode& result);
-inline constexpr const char* kJitEntryName = "sinew_jit_compile";
+// The build adds a digest of the declarations on both sides (CMakeLists.txt).
+#define SINEW_JIT_TEXT(name) #name
+#define SINEW_JIT_NAME(name) SINEW_JIT_TEXT(name)
+inline constexpr const char* kJitEntryName = SINEW_JIT_NAME(SINEW_JIT_COMPILE);
 
 }  // namespace sinew::backend

@@ -204,7 +204,7 @@ class LinkedCode {
 
 }  // namespace
 
-extern "C" void sinew_jit_compile(const program::Computation& computation,
+extern "C" void SINEW_JIT_COMPILE(const program::Computation& computation,
                                   const program::LimbProgram* limbs, const JitOptions& options,
                                   const JitWanted& wanted, JitCode& result) {
   static const bool ready =
