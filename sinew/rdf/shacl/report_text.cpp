@@ -22,9 +22,15 @@ Problem to_problem(const Result& result, const graph::Terms& terms, const graph:
     problem.what = where + result.what;
     problem.remedy = result.remedy;
   } else {
-    problem.what = where + result.messages[0].text;
-    problem.remedy =
-        result.remedy.empty() ? result.what : fmt::format("{}: {}", result.what, result.remedy);
+    // The shape's own words, as the first part of a sentence.
+    std::string_view message = result.messages[0].text;
+    if (message.ends_with('.')) message.remove_suffix(1);
+    problem.what = where + std::string(message);
+    // That the value is the node itself says nothing new.
+    if (result.value != result.focus_node || result.path) {
+      problem.remedy =
+          result.remedy.empty() ? result.what : fmt::format("{}: {}", result.what, result.remedy);
+    }
   }
   const std::string_view severity = terms.text(result.severity);
   const bool mild =
