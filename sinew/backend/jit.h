@@ -22,7 +22,7 @@
 namespace sinew::backend {
 
 enum class JitLevel : std::uint8_t {
-  kFast,  // milliseconds to the first call
+  kFast,  // the first call in two thirds of the time; code that takes a third longer
   kFull,  // the fastest code
 };
 

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <vector>
 
+#include "sinew/backend/jit/constant_results.h"
 #include "sinew/backend/jit/ir.h"
 #include "sinew/backend/jit/sincos.h"
 #include "sinew/program/dag/evaluate.h"
@@ -33,6 +36,57 @@ using Load = std::function<LLVMValueRef(std::uint32_t input)>;
 // Called with the value of each node in turn.
 using Computed = std::function<void(std::uint32_t node, LLVMValueRef value)>;
 
+// Sines and cosines of single numbers, which share vectors of doubles.
+class PackedSines {
+ public:
+  // `angles` are floats or doubles.
+  PackedSines(const Place& place, const std::vector<LLVMValueRef>& angles)
+      : builder_(place.builder) {
+    if (angles.empty()) return;
+    context_ = LLVMGetTypeContext(LLVMTypeOf(angles.front()));
+    const Ir number(builder_, LLVMTypeOf(angles.front()), place.fuse);
+    width_ = angles.size() > 4 ? kSineLanes : angles.size() > 2 ? 4 : 2;
+    std::vector<LLVMValueRef> packs;
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      if (i % width_ == 0)
+        packs.push_back(LLVMConstNull(LLVMVectorType(LLVMDoubleTypeInContext(context_), width_)));
+      packs.back() = LLVMBuildInsertElement(builder_, packs.back(), number.to_double(angles[i]),
+                                            integer(i % width_), "");
+    }
+    values_ = emit_sincos(builder_, place.function, place.repair, packs, place.fuse);
+  }
+
+  // Of `width` angles from this one on, a vector where they are several; no pack ends between them.
+  LLVMValueRef sine(std::size_t first, unsigned width) const {
+    return part(values_.sine, first, width);
+  }
+  LLVMValueRef cosine(std::size_t first, unsigned width) const {
+    return part(values_.cosine, first, width);
+  }
+
+ private:
+  LLVMValueRef integer(std::size_t value) const {
+    return LLVMConstInt(LLVMInt64TypeInContext(context_), value, false);
+  }
+
+  LLVMValueRef part(const std::vector<LLVMValueRef>& packs, std::size_t first,
+                    unsigned width) const {
+    const LLVMValueRef pack = packs[first / width_];
+    if (width == 1) return LLVMBuildExtractElement(builder_, pack, integer(first % width_), "");
+    const LLVMTypeRef index = LLVMInt32TypeInContext(context_);
+    std::vector<LLVMValueRef> lanes;
+    for (unsigned lane = 0; lane < width; ++lane)
+      lanes.push_back(LLVMConstInt(index, first % width_ + lane, false));
+    return LLVMBuildShuffleVector(builder_, pack, LLVMGetUndef(LLVMTypeOf(pack)),
+                                  LLVMConstVector(lanes.data(), width), "");
+  }
+
+  LLVMBuilderRef builder_ = nullptr;
+  LLVMContextRef context_ = nullptr;
+  unsigned width_ = kSineLanes;
+  SincosValues values_;
+};
+
 // Emits what a computation does on numbers of one type: doubles or vectors of them.
 class ComputationEmitter {
  public:
@@ -53,6 +107,25 @@ class ComputationEmitter {
         cosine_(dag_.size(), nullptr),
         fused_(dag_.size(), false) {
     count_uses();
+  }
+
+  // Nodes whose sine or cosine is needed and that are inputs.
+  std::vector<std::uint32_t> angles_that_are_inputs() const {
+    std::vector<std::uint32_t> nodes;
+    for (std::uint32_t i = 0; i < dag_.size(); ++i) {
+      if (!live_[i] || !is_trigonometric(dag_.node(i).op)) continue;
+      const std::uint32_t angle = dag_.node(i).a.node();
+      if (dag_.node(angle).op == Op::kInput) nodes.push_back(angle);
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+  }
+
+  // Those of an angle, in double: they need not be computed here.
+  void set_sine(std::uint32_t angle, LLVMValueRef sine, LLVMValueRef cosine) {
+    sine_[angle] = ir_.from_double(sine);
+    cosine_[angle] = ir_.from_double(cosine);
   }
 
   // The results. `computed` may write them as soon as they are there, so that they need no register
@@ -92,71 +165,30 @@ class ComputationEmitter {
   // All angles that are inputs: one vectorised evaluation at the start. Angles that are computed
   // get theirs where they are needed.
   void emit_sines_of_inputs() {
-    std::vector<std::uint32_t> nodes;
-    for (std::uint32_t i = 0; i < dag_.size(); ++i) {
-      if (!live_[i] || !is_trigonometric(dag_.node(i).op)) continue;
-      const std::uint32_t angle = dag_.node(i).a.node();
-      if (dag_.node(angle).op == Op::kInput) nodes.push_back(angle);
-    }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    std::vector<std::uint32_t> nodes = angles_that_are_inputs();
+    std::erase_if(nodes, [this](std::uint32_t node) { return sine_[node] != nullptr; });
     if (nodes.empty()) return;
     if (ir_.lanes() >= kSineLanes) {
       std::vector<LLVMValueRef> angles;
       for (const std::uint32_t node : nodes) angles.push_back(ir_.to_double(value(node)));
       const SincosValues values = emit_sincos(builder_, function_, repair_, angles, fuse_);
       for (std::size_t i = 0; i < nodes.size(); ++i) {
-        sine_[nodes[i]] = ir_.from_double(values.sine[i]);
-        cosine_[nodes[i]] = ir_.from_double(values.cosine[i]);
+        set_sine(nodes[i], values.sine[i], values.cosine[i]);
       }
       return;
     }
-    emit_packed_sines(nodes);
-  }
-
-  LLVMValueRef integer(std::size_t value) const {
-    return LLVMConstInt(LLVMInt64TypeInContext(ir_.context()), value, false);
-  }
-
-  // Lanes of angles that are narrower share vectors of 8 (the last 4 or 2); unused lanes are 0.
-  void emit_packed_sines(const std::vector<std::uint32_t>& nodes) {
-    const LLVMTypeRef number = LLVMDoubleTypeInContext(ir_.context());
     const unsigned lanes = ir_.lanes();
-    const auto lane_of = [&](LLVMValueRef value, unsigned lane) {
-      return lanes == 1 ? value : LLVMBuildExtractElement(builder_, value, integer(lane), "");
-    };
-    const std::size_t numbers = nodes.size() * lanes;
-    std::vector<LLVMValueRef> sines, cosines;  // of every number
-    for (std::size_t first = 0; first < numbers;) {
-      const std::size_t left = numbers - first;
-      const unsigned width = left > 4 ? 8 : left > 2 ? 4 : 2;
-      const std::size_t count = std::min<std::size_t>(left, width);
-      LLVMValueRef packed = LLVMConstNull(LLVMVectorType(number, width));
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t at = first + i;
-        const LLVMValueRef angle =
-            lane_of(ir_.to_double(value(nodes[at / lanes])), static_cast<unsigned>(at % lanes));
-        packed = LLVMBuildInsertElement(builder_, packed, angle, integer(i), "");
-      }
-      const SincosValues values = emit_sincos(builder_, function_, repair_, {packed}, fuse_);
-      for (std::size_t i = 0; i < count; ++i) {
-        sines.push_back(LLVMBuildExtractElement(builder_, values.sine[0], integer(i), ""));
-        cosines.push_back(LLVMBuildExtractElement(builder_, values.cosine[0], integer(i), ""));
-      }
-      first += count;
-    }
-    const auto joined = [&](const std::vector<LLVMValueRef>& parts, std::size_t node) {
-      if (lanes == 1) return ir_.from_double(parts[node]);
-      LLVMValueRef vector = LLVMGetUndef(LLVMVectorType(number, lanes));
+    std::vector<LLVMValueRef> numbers;
+    for (const std::uint32_t node : nodes) {
       for (unsigned lane = 0; lane < lanes; ++lane) {
-        vector =
-            LLVMBuildInsertElement(builder_, vector, parts[node * lanes + lane], integer(lane), "");
+        const LLVMValueRef at = LLVMConstInt(LLVMInt64TypeInContext(ir_.context()), lane, false);
+        numbers.push_back(lanes == 1 ? value(node)
+                                     : LLVMBuildExtractElement(builder_, value(node), at, ""));
       }
-      return ir_.from_double(vector);
-    };
+    }
+    const PackedSines sines({builder_, function_, repair_, fuse_}, numbers);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      sine_[nodes[i]] = joined(sines, i);
-      cosine_[nodes[i]] = joined(cosines, i);
+      set_sine(nodes[i], sines.sine(i * lanes, lanes), sines.cosine(i * lanes, lanes));
     }
   }
 
@@ -283,9 +315,16 @@ void emit_samples(const Computation& computation, const Place& place, LLVMTypeRe
     return value;
   };
   std::vector<std::vector<std::uint32_t>> results_of(computation.dag.size());  // of each node
+  std::vector<std::optional<double>> constants(computation.results.size());
   for (std::uint32_t i = 0; i < computation.results.size(); ++i) {
-    results_of[computation.results[i].node()].push_back(i);
+    const Ref result = computation.results[i];
+    if (stride == nullptr && computation.dag.is_constant(result)) {
+      constants[i] = computation.dag.constant_value(result);
+    } else {
+      results_of[result.node()].push_back(i);
+    }
   }
+  store_constant_results(place.builder, number, LLVMGetParam(place.function, 1), constants);
   const auto store = [&](std::uint32_t node, LLVMValueRef value) {
     for (const std::uint32_t i : results_of[node]) {
       const LLVMValueRef result =
@@ -310,8 +349,11 @@ class LimbEmitter {
       results_of.emplace_back(region.computation.dag.size());
     }
     std::vector<std::uint32_t> others;
+    std::vector<std::optional<double>> constants(program_.results.size());
     for (std::uint32_t i = 0; i < program_.results.size(); ++i) {
       const program::LimbSource& source = program_.results[i];
+      constants[i] = constant(source);
+      if (constants[i]) continue;
       if (source.kind == program::LimbSource::Kind::kRegion) {
         const program::Computation& of = program_.regions[source.region].computation;
         results_of[source.region][of.results[source.index].node()].push_back(i);
@@ -319,14 +361,20 @@ class LimbEmitter {
         others.push_back(i);
       }
     }
+    store_constant_results(place_.builder, number_, LLVMGetParam(place_.function, 1), constants);
+
+    std::vector<ComputationEmitter> emitters;
+    for (const program::LimbRegion& region : program_.regions) {
+      const unsigned width = width_of(region);
+      const LLVMTypeRef type = width == 1 ? number_ : LLVMVectorType(number_, width);
+      emitters.emplace_back(region.computation, place_, type,
+                            [this, &region, type, width](std::uint32_t input) {
+                              return gathered(region.inputs[input], type, width);
+                            });
+    }
+    emit_sines_of_inputs(emitters);
     for (const program::LimbRegion& region : program_.regions) {
       const std::size_t at = results_.size();
-      unsigned width = 1;
-      while (width < region.lanes) width *= 2;
-      const LLVMTypeRef type = width == 1 ? number_ : LLVMVectorType(number_, width);
-      const auto load = [&](std::uint32_t input) {
-        return gathered(region.inputs[input], type, width);
-      };
       const auto computed = [&](std::uint32_t node, LLVMValueRef value) {
         for (const std::uint32_t i : results_of[at][node]) {
           const program::LimbSource& source = program_.results[i];
@@ -335,7 +383,7 @@ class LimbEmitter {
           store(i, lane_of(value, region.lanes, source.lane), negative);
         }
       };
-      results_.push_back(ComputationEmitter(region.computation, place_, type, load).emit(computed));
+      results_.push_back(emitters[at].emit(computed));
     }
     for (const std::uint32_t i : others) store(i, number(program_.results[i]), false);
     LLVMBuildRetVoid(place_.builder);
@@ -359,6 +407,61 @@ class LimbEmitter {
   LLVMValueRef lane_of(LLVMValueRef value, std::uint32_t lanes, std::uint32_t lane) const {
     if (lanes == 1) return value;
     return LLVMBuildExtractElement(place_.builder, value, integer(lane), "");
+  }
+
+  static unsigned width_of(const program::LimbRegion& region) {
+    unsigned width = 1;
+    while (width < region.lanes) width *= 2;
+    return width;
+  }
+
+  // The value of a source that needs no computation.
+  std::optional<double> constant(const program::LimbSource& source) const {
+    if (source.kind == program::LimbSource::Kind::kConstant) return source.value;
+    if (source.kind != program::LimbSource::Kind::kRegion) return std::nullopt;
+    const program::Computation& of = program_.regions[source.region].computation;
+    const Ref result = of.results[source.index].negated_if(source.negative);
+    if (!of.dag.is_constant(result)) return std::nullopt;
+    return of.dag.constant_value(result);
+  }
+
+  // Sines and cosines of all angles that the caller hands over, of all regions at once: what a
+  // region waits for is then under way before the region in front of it is done.
+  void emit_sines_of_inputs(std::vector<ComputationEmitter>& emitters) const {
+    struct Angle {
+      std::size_t region;
+      std::uint32_t node;
+    };
+    std::vector<Angle> angles;
+    for (std::size_t at = 0; at < emitters.size(); ++at) {
+      const program::LimbRegion& region = program_.regions[at];
+      for (const std::uint32_t node : emitters[at].angles_that_are_inputs()) {
+        const auto& sources = region.inputs[region.computation.dag.node(node).index];
+        const bool from_caller =
+            std::all_of(sources.begin(), sources.end(), [](const program::LimbSource& source) {
+              return source.kind == program::LimbSource::Kind::kCaller;
+            });
+        if (from_caller) angles.push_back({at, node});
+      }
+    }
+    // Vectors first, so that none lies across two packs.
+    std::stable_sort(angles.begin(), angles.end(), [&](const Angle& a, const Angle& b) {
+      return width_of(program_.regions[a.region]) > width_of(program_.regions[b.region]);
+    });
+    std::vector<LLVMValueRef> numbers;
+    for (const Angle& angle : angles) {
+      const program::LimbRegion& region = program_.regions[angle.region];
+      const auto& sources = region.inputs[region.computation.dag.node(angle.node).index];
+      for (unsigned lane = 0; lane < width_of(region); ++lane)
+        numbers.push_back(number(sources[lane < sources.size() ? lane : 0]));
+    }
+    const PackedSines sines(place_, numbers);
+    std::size_t at = 0;
+    for (const Angle& angle : angles) {
+      const unsigned width = width_of(program_.regions[angle.region]);
+      emitters[angle.region].set_sine(angle.node, sines.sine(at, width), sines.cosine(at, width));
+      at += width;
+    }
   }
 
   LLVMValueRef number(const program::LimbSource& source) const {

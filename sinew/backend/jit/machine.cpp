@@ -20,6 +20,7 @@
 #include "sinew/backend/jit/content_hash.h"
 #include "sinew/backend/jit/emit.h"
 #include "sinew/backend/jit/entry.h"
+#include "sinew/backend/jit/llvm_settings.h"
 #include "sinew/backend/jit/sincos.h"
 #include "sinew/base/error.h"
 
@@ -101,10 +102,13 @@ std::string compile_object(const program::Computation& computation,
   std::string fault;
   std::string object;
   char* message = nullptr;
+#ifndef NDEBUG
   if (LLVMVerifyModule(module, LLVMReturnStatusAction, &message)) fault = message;
   LLVMDisposeMessage(message);
   message = nullptr;
+#endif
   LLVMMemoryBufferRef buffer = nullptr;
+  const RegisterAllocation registers(level);
   if (fault.empty() && LLVMTargetMachineEmitToMemoryBuffer(machine.get(), module, LLVMObjectFile,
                                                            &message, &buffer)) {
     fault = message;
@@ -210,6 +214,7 @@ extern "C" void SINEW_JIT_COMPILE(const program::Computation& computation,
   static const bool ready =
       LLVMInitializeNativeTarget() == 0 && LLVMInitializeNativeAsmPrinter() == 0;
   if (!ready) fail("it was built without this machine's target");
+  set_up_code_generator();
   static const Host this_host = host();
 
   std::string object;
