@@ -20,11 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where libsinew_jit may lie: named by the environment, beside the program, in its library folder,
-// or where the build put it.
+// Where libsinew_jit may lie: where the environment says, and there alone; else beside the program,
+// in its library folder, or where the build put it.
 std::vector<fs::path> candidates() {
   std::vector<fs::path> paths;
-  if (const char* named = std::getenv("SINEW_JIT_LIBRARY")) paths.emplace_back(named);
+  if (const char* named = std::getenv("SINEW_JIT_LIBRARY")) return {named};
   std::error_code fault;
   const fs::path program = fs::read_symlink("/proc/self/exe", fault);
   if (!fault) {
@@ -56,7 +56,10 @@ Library load() {
     library.fault = path.string() + " belongs to another version (it has no " + kJitEntryName +
                     "); build or install both together";
   }
-  if (library.fault.empty()) library.fault = "libsinew_jit.so is not there";
+  if (library.fault.empty()) {
+    const char* named = std::getenv("SINEW_JIT_LIBRARY");
+    library.fault = std::string(named != nullptr ? named : "libsinew_jit.so") + " is not there";
+  }
   return library;
 }
 

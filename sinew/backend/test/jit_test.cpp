@@ -28,6 +28,11 @@ class Jit : public testing::TestWithParam<JitLevel> {
   }
 };
 
+TEST(JitLibrary, IsThereWhereLlvmWasWhenThisWasBuilt) {
+  std::string why;
+  EXPECT_EQ(jit_available(&why), SINEW_JIT_IS_BUILT != 0) << why;
+}
+
 Computation sines_and_cosines(std::uint32_t angles) {
   Computation computation;
   computation.inputs = angles;
