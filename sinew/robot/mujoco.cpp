@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <thread>
 
 #include "sinew/base/error.h"
@@ -28,13 +29,20 @@ constexpr int kPriority = runtime::kDefaultPriority - 10;
   throw Error(Problem{{}, "", std::move(what), std::move(remedy), {}, {}});
 }
 
-mjModel* compile(const std::string& xml) {
+struct Freed {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+template <typename T>
+using Owned = std::unique_ptr<T, Freed>;
+
+Owned<mjModel> compile(const std::string& xml) {
   mjVFS files;
   mj_defaultVFS(&files);
   mj_makeEmptyFileVFS(&files, "robot.xml", static_cast<int>(xml.size()));
   std::memcpy(files.filedata[0], xml.data(), xml.size());
   char fault[1000] = "";
-  mjModel* model = mj_loadXML("robot.xml", &files, fault, sizeof fault);
+  Owned<mjModel> model(mj_loadXML("robot.xml", &files, fault, sizeof fault));
   mj_deleteVFS(&files);
   if (model == nullptr)
     fail(std::string("MuJoCo refuses the robot: ") + fault, "correct the model or the scene");
@@ -48,7 +56,7 @@ struct Mujoco::Simulation {
       : options(std::move(from)),
         joints(tree, terms),
         model(compile(mjcf(tree, terms, options.scene, options.timestep_s))),
-        data(mj_makeData(model)),
+        data(mj_makeData(model.get())),
         measured(1 + 2 * joints.size()),
         commanded(joints.size()),
         measurement(1 + 2 * joints.size()),
@@ -57,23 +65,19 @@ struct Mujoco::Simulation {
         fresh(joints.size()),
         command(joints.size()) {
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      const int id = mj_name2id(model, mjOBJ_JOINT, joints[i].iri.c_str());
+      const int id = mj_name2id(model.get(), mjOBJ_JOINT, joints[i].iri.c_str());
       position.push_back(model->jnt_qposadr[id]);
       velocity.push_back(model->jnt_dofadr[id]);
     }
-    tool = mj_name2id(model, mjOBJ_GEOM, "tool");
-    object = mj_name2id(model, mjOBJ_BODY, "object");
-    hand = mj_name2id(model, mjOBJ_SITE, "hand");
+    tool = mj_name2id(model.get(), mjOBJ_GEOM, "tool");
+    object = mj_name2id(model.get(), mjOBJ_BODY, "object");
+    hand = mj_name2id(model.get(), mjOBJ_SITE, "hand");
     place();
-  }
-  ~Simulation() {
-    mj_deleteData(data);
-    mj_deleteModel(model);
   }
 
   // Puts the robot where the scene says, at rest unless it says otherwise.
   void place() {
-    mj_resetData(model, data);
+    mj_resetData(model.get(), data.get());
     for (const auto& [name, number] : options.scene.start) {
       const std::size_t dot = name.find('.');
       const std::string kind = name.substr(0, dot);
@@ -82,7 +86,7 @@ struct Mujoco::Simulation {
       const std::size_t joint = joints.find(name.substr(dot + 1));
       (kind == "position" ? data->qpos[position[joint]] : data->qvel[velocity[joint]]) = number;
     }
-    mj_forward(model, data);
+    mj_forward(model.get(), data.get());
     braked = true;
     phase = 0;
   }
@@ -157,12 +161,14 @@ struct Mujoco::Simulation {
     for (std::size_t i = 0; i < 3; ++i)
       set(static_cast<Signal>(static_cast<std::size_t>(Signal::kHandX) + i), push[i]);
     const mjtNum none[3] = {0, 0, 0};
-    mj_applyFT(model, data, push.data(), none, at, model->site_bodyid[hand], data->qfrc_applied);
+    mj_applyFT(model.get(), data.get(), push.data(), none, at, model->site_bodyid[hand],
+               data->qfrc_applied);
   }
 
   std::array<mjtNum, 3> guide(const Hand& script, const Vector& velocity, const mjtNum* at) {
     mjtNum speed[6];
-    mj_objectVelocity(model, data, mjOBJ_SITE, hand, speed, 0);  // angular, linear; world axes
+    // Angular, linear; world axes.
+    mj_objectVelocity(model.get(), data.get(), mjOBJ_SITE, hand, speed, 0);
     std::array<mjtNum, 3> push;
     mjtNum length = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -182,7 +188,7 @@ struct Mujoco::Simulation {
     for (int i = 0; i < data->ncon; ++i) {
       if (data->contact[i].geom1 != tool && data->contact[i].geom2 != tool) continue;
       mjtNum wrench[6];
-      mj_contactForce(model, data, i, wrench);
+      mj_contactForce(model.get(), data.get(), i, wrench);
       normal += wrench[0];
     }
     set(Signal::kContact, normal);
@@ -193,7 +199,7 @@ struct Mujoco::Simulation {
     if (take_commands()) {
       braked = false;
       use_hand();
-      mj_step(model, data);
+      mj_step(model.get(), data.get());
       measure_contact();
       set(Signal::kTime, data->time);
     }
@@ -220,8 +226,8 @@ struct Mujoco::Simulation {
 
   MujocoOptions options;
   Joints joints;
-  mjModel* model;
-  mjData* data;
+  Owned<mjModel> model;
+  Owned<mjData> data;
   std::vector<int> position, velocity;  // addresses of the joints
   int tool = -1, object = -1, hand = -1;
 

@@ -15,8 +15,6 @@ constexpr std::string_view kAsksTwist = SINEW_ASKS_PREFIX "ASK { ?algorithm sa:a
 constexpr std::string_view kAsksAcceleration =
     SINEW_ASKS_PREFIX "ASK { ?algorithm sa:asks-acceleration-twist ?node }";
 
-constexpr double kZero[6] = {};
-
 void configure_pose(Context& context, const Visit& visit) {
   context.make({.slot = "frame-placement",
                 .represents = visit.node,

@@ -46,10 +46,9 @@ bool take_out(const Factor& factor, Monomial& term) {
 }
 
 // Takes out the factor that most terms share, again and again. New sums are appended to the system
-// and looked at in their turn. Returns whether there was one.
-bool factor(Polynomials& system, std::uint32_t i) {
-  bool changed = false;
-  for (;; changed = true) {
+// and looked at in their turn.
+void factor(Polynomials& system, std::uint32_t i) {
+  for (;;) {
     std::vector<Monomial>& terms = system.polynomial[i].terms;
     FactorList all;
     for (const Monomial& term : terms) {
@@ -69,7 +68,7 @@ bool factor(Polynomials& system, std::uint32_t i) {
       }
       from = to;
     }
-    if (best_count < 2) return changed;
+    if (best_count < 2) return;
 
     Polynomial inside;
     inside.origin = system.polynomial[i].origin;
@@ -95,11 +94,8 @@ bool factor(Polynomials& system, std::uint32_t i) {
 
 Computation factor_sums(Computation computation) {
   Polynomials system = read_polynomials(std::move(computation));
-  bool changed = false;
   for (std::uint32_t i = 0; i < system.polynomial.size(); ++i) {
-    if (system.is_polynomial[i] && system.polynomial[i].terms.size() > 1) {
-      changed |= factor(system, i);
-    }
+    if (system.is_polynomial[i] && system.polynomial[i].terms.size() > 1) factor(system, i);
   }
   return write_polynomials(system, Association::kPlain);
 }
