@@ -1,13 +1,13 @@
 #include "sinew/synthesis/effects.h"
 
+#include "sinew/synthesis/block_specs.h"
+
 namespace sinew::synthesis {
 
 using algorithm::BlockSpec;
 using algorithm::Role;
 
 namespace {
-
-constexpr double kZero[6] = {};
 
 std::string label_at(const Context& context, const Effect& effect, std::string_view label, Id at) {
   const std::string_view place =
@@ -52,30 +52,18 @@ BlockIndex make_effect_wrench(Context& context, const Effect& effect, std::strin
 }
 
 BlockIndex no_wrench(Context& context, Id frame, Id body) {
-  return context.make({.slot = "no-wrench",
-                       .represents = frame,
-                       .quantity = "wrench",
-                       .of = body,
-                       .reference = frame,
-                       .seen_by = frame,
-                       .role = Role::kConstant,
-                       .value = kZero});
+  return context.make(zero(at_frame("no-wrench", "wrench", frame, body, frame)));
 }
 
 BlockIndex no_force(Context& context, const JointEdge& edge) {
-  BlockSpec spec = edge.coordinate("no-joint-force", "force");
-  spec.role = Role::kConstant;
-  spec.value = std::span(kZero).first(edge.floats() ? 6 : 1);
-  return context.make(spec);
+  return context.make(zero(edge.coordinate("no-joint-force", "force")));
 }
 
 BlockIndex no_energy(Context& context) {
-  return context.make({.slot = "no-acceleration-energy",
-                       .represents = context.robot.root_body,
-                       .quantity = "acceleration-energy",
-                       .role = Role::kConstant,
-                       .value = std::span(kZero).first(1),
-                       .label = algorithm::kWholeRobot});
+  return context.make(zero({.slot = "no-acceleration-energy",
+                            .represents = context.robot.root_body,
+                            .quantity = "acceleration-energy",
+                            .label = algorithm::kWholeRobot}));
 }
 
 BlockIndex times(Context& context, double number) {

@@ -1,5 +1,6 @@
 // Acceleration twists, classical, each body's absolute and seen from the body's own frame. Gravity
 // is an acceleration of the root: all is seen from an observer in free fall.
+#include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/free_joint.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/motion.h"
@@ -8,36 +9,21 @@
 namespace sinew::synthesis {
 namespace {
 
-using algorithm::Role;
+using algorithm::BlockSpec;
 
-constexpr double kZero[6] = {};
+// Across the joint alone.
+BlockSpec across(const JointEdge& edge, std::string_view slot, std::string_view quantity) {
+  return at_frame(slot, quantity, edge.joint, edge.successor, edge.child, edge.predecessor);
+}
 
 void configure_relative(Motion motion, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const std::string slot = slot_of(motion, "relative-acceleration");
   if (motion == Motion::kDriven && floats_freely(context, edge))
-    context.make({.slot = "no-relative-twist",
-                  .represents = edge.joint,
-                  .quantity = "velocity-twist",
-                  .of = edge.successor,
-                  .wrt = edge.predecessor,
-                  .reference = edge.child,
-                  .seen_by = edge.child,
-                  .role = Role::kConstant,
-                  .value = kZero});
-  algorithm::BlockSpec spec = {.slot = slot,
-                               .represents = edge.joint,
-                               .quantity = "acceleration-twist",
-                               .of = edge.successor,
-                               .wrt = edge.predecessor,
-                               .reference = edge.child,
-                               .seen_by = edge.child};
+    context.make(zero(across(edge, "no-relative-twist", "velocity-twist")));
+  const BlockSpec spec = across(edge, slot, "acceleration-twist");
   const FreePart part = free_part(context, edge.joint);
-  if (part.whole != nullptr && !part.last) {
-    spec.role = Role::kConstant;
-    spec.value = kZero;
-  }
-  context.make(spec);
+  context.make(part.whole != nullptr && !part.last ? zero(spec) : spec);
 }
 
 void compute_relative(Motion motion, Context& context, const Visit& visit) {
@@ -66,15 +52,8 @@ void configure_root(Motion motion, Context& context, const Visit& visit) {
     context.board.put(slot, visit.node, context.block("base-acceleration", visit.node));
     return;
   }
-  context.make({.slot = slot,
-                .represents = visit.node,
-                .quantity = "acceleration-twist",
-                .of = visit["body"],
-                .wrt = context.reference,
-                .reference = visit.node,
-                .seen_by = visit.node,
-                .role = Role::kConstant,
-                .value = kZero});
+  context.make(zero(at_frame(slot, "acceleration-twist", visit.node, visit["body"], visit.node,
+                             context.reference)));
 }
 
 // The velocity of a floating base has coordinates in its own frame: while these do not change, its
@@ -86,39 +65,22 @@ bool accelerates_by_velocity(Motion motion, const Context& context, const JointE
 void configure_body(Motion motion, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const auto acceleration = [&](std::string_view slot, Id represents, Id of, Id frame) {
-    context.make({.slot = slot_of(motion, slot),
-                  .represents = represents,
-                  .quantity = "acceleration-twist",
-                  .of = of,
-                  .wrt = context.reference,
-                  .reference = frame,
-                  .seen_by = frame});
+    context.make(at_frame(slot_of(motion, slot), "acceleration-twist", represents, of, frame,
+                          context.reference));
   };
   acceleration("acceleration-at-joint", edge.joint, edge.predecessor, edge.joint_frame);
   acceleration("acceleration-across-joint", edge.joint, edge.predecessor, edge.child);
   acceleration("body-acceleration", edge.child, edge.successor, edge.child);
   if (is_driven(motion)) return;
-  algorithm::BlockSpec relative = {.slot = "no-relative-acceleration",
-                                   .represents = edge.joint,
-                                   .quantity = "acceleration-twist",
-                                   .of = edge.successor,
-                                   .wrt = edge.predecessor,
-                                   .reference = edge.child,
-                                   .seen_by = edge.child,
-                                   .role = Role::kConstant,
-                                   .value = kZero};
-  if (accelerates_by_velocity(motion, context, edge)) {
-    algorithm::BlockSpec still = edge.coordinate("no-acceleration", "acceleration");
-    still.quantity = "floating-acceleration";
-    still.prismatic = false;
-    still.role = Role::kConstant;
-    still.value = kZero;
-    context.make(still);
-    relative.slot = "bias-relative-acceleration";
-    relative.role = Role::kInternal;
-    relative.value = {};
+  if (!accelerates_by_velocity(motion, context, edge)) {
+    context.make(zero(across(edge, "no-relative-acceleration", "acceleration-twist")));
+    return;
   }
-  context.make(relative);
+  BlockSpec still = edge.coordinate("no-acceleration", "acceleration");
+  still.quantity = "floating-acceleration";
+  still.prismatic = false;
+  context.make(zero(still));
+  context.make(across(edge, "bias-relative-acceleration", "acceleration-twist"));
 }
 
 // Of the joint alone.

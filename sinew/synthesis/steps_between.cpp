@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sinew/synthesis/between.h"
+#include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/relation.h"
 #include "sinew/synthesis/step_list.h"
 #include "sinew/synthesis/whole_robot.h"
@@ -11,9 +12,6 @@ namespace sinew::synthesis {
 namespace {
 
 using algorithm::BlockSpec;
-using algorithm::Role;
-
-constexpr double kZero[36] = {};
 
 Id body(const Context& context, Id frame) { return body_of(context.robot, context.view, frame); }
 
@@ -136,26 +134,22 @@ class Columns {
   }
 
   BlockIndex block(std::string_view slot, const RobotJoint& joint, Id wrt, Id seen_by,
-                   bool zero = false) {
+                   bool unmoved = false) {
     const std::string label =
         relation_.label + "." +
         std::string(joint.label.empty()
                         ? algorithm::short_name(context_.view.terms().text(joint.joint))
                         : joint.label);
-    BlockSpec spec = {.slot = slot,
-                      .represents = context_.pair(relation_.node, joint.joint),
-                      .quantity = floats(joint) ? "jacobian-block" : "jacobian-column",
-                      .of = relation_.of,
-                      .wrt = wrt,
-                      .reference = relation_.of,
-                      .seen_by = seen_by,
-                      .prismatic = joint.kind == "prismatic",
-                      .label = label};
-    if (zero) {
-      spec.role = Role::kConstant;
-      spec.value = std::span(kZero).first(floats(joint) ? 36 : 6);
-    }
-    return context_.make(spec);
+    const BlockSpec spec = {.slot = slot,
+                            .represents = context_.pair(relation_.node, joint.joint),
+                            .quantity = floats(joint) ? "jacobian-block" : "jacobian-column",
+                            .of = relation_.of,
+                            .wrt = wrt,
+                            .reference = relation_.of,
+                            .seen_by = seen_by,
+                            .prismatic = joint.kind == "prismatic",
+                            .label = label};
+    return context_.make(unmoved ? zero(spec) : spec);
   }
 
   static bool floats(const RobotJoint& joint) { return joint.kind == "floating"; }

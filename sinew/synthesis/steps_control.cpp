@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/control.h"
 #include "sinew/synthesis/control_signals.h"
 #include "sinew/synthesis/drivers.h"
@@ -16,9 +17,6 @@ namespace {
 
 using algorithm::BlockSpec;
 using algorithm::kNoIndex;
-using algorithm::Role;
-
-constexpr double kZero[1] = {};
 
 const task::Task& task_of(const Context& context) { return *context.control->task; }
 
@@ -68,10 +66,7 @@ void make_joint_signals(Context& context, ControlSignals& signals) {
     if (joint.kind == "floating") continue;
     BlockIndex sum = joint_signal(context, signals, joint);
     if (sum == kNoIndex) {
-      BlockSpec spec = joint_quantity("no-signal", joint);
-      spec.role = Role::kConstant;
-      spec.value = kZero;
-      sum = context.builder.block(spec);
+      sum = context.builder.block(zero(joint_quantity("no-signal", joint)));
     }
     context.board.put("joint-signal", joint.joint, sum);
   }
@@ -88,9 +83,7 @@ void make_accelerations(Context& context, ControlSignals& signals) {
         if (driver.attached_to == joint.joint && view.coordinates == driver.quantity)
           source = &view;
     if (source == nullptr) {
-      spec.role = Role::kConstant;
-      spec.value = kZero;
-      context.make(spec);
+      context.make(zero(spec));
       continue;
     }
     const BlockIndex number = signals.number(source->number);

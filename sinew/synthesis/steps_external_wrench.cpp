@@ -1,6 +1,7 @@
 // Wrenches from outside: brought to the frame of the body on which they act, where they either help
 // to move the body at once, or travel inward by themselves to show their share of each joint's
 // force.
+#include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/external_wrenches.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/step_list.h"
@@ -12,16 +13,10 @@ using algorithm::BlockSpec;
 using algorithm::kNoIndex;
 using algorithm::Role;
 
-constexpr double kZero[6] = {};
 constexpr std::string_view kCarried = "external-wrench-effect";
 
 BlockSpec wrench(std::string_view slot, Id represents, Id of, Id frame) {
-  return {.slot = slot,
-          .represents = represents,
-          .quantity = "wrench",
-          .of = of,
-          .reference = frame,
-          .seen_by = frame};
+  return at_frame(slot, "wrench", represents, of, frame);
 }
 
 std::vector<const ExternalWrench*> wrenches_on(const Context& context, Id body_frame) {
@@ -129,11 +124,7 @@ void configure_share(Context& context, const Visit& visit) {
       BlockSpec spec = edge.coordinate(slot, "force");
       spec.represents = pair;
       spec.label = name;
-      if (slot == "no-force-of-wrench") {
-        spec.role = Role::kConstant;
-        spec.value = std::span(kZero).first(edge.floats() ? 6 : 1);
-      }
-      context.make(spec);
+      context.make(slot == "no-force-of-wrench" ? zero(spec) : spec);
     }
     const auto alone = [&](std::string_view slot, Id frame) {
       BlockSpec spec = wrench(slot, pair, edge.successor, frame);
@@ -142,10 +133,7 @@ void configure_share(Context& context, const Visit& visit) {
     };
     // It now acts on all that is behind this joint.
     context.make(alone("wrench-alone", edge.child));
-    BlockSpec none = alone("no-wrench", edge.child);
-    none.role = Role::kConstant;
-    none.value = kZero;
-    context.make(none);
+    context.make(zero(alone("no-wrench", edge.child)));
     if (edge.parent == context.robot.root_frame) continue;
     context.make(alone("wrench-at-joint-alone", edge.joint_frame));
     context.board.carry(kCarried, edge.parent,

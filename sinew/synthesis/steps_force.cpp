@@ -1,5 +1,6 @@
 // Forces: the wrench that moves each body as it moves, their sums from the leaves inward, and the
 // share of each sum that acts along the joint.
+#include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/motion.h"
 #include "sinew/synthesis/needed_wrench.h"
@@ -11,8 +12,6 @@ namespace {
 
 using algorithm::kNoIndex;
 using algorithm::Role;
-
-constexpr double kZero[6] = {};
 
 void configure_inertia(Context& context, const Visit& visit) {
   const auto found = context.inertias.find(visit["body"]);
@@ -28,12 +27,7 @@ void configure_inertia(Context& context, const Visit& visit) {
 }
 
 algorithm::BlockSpec wrench(std::string_view slot, Id represents, Id of, Id frame) {
-  return {.slot = slot,
-          .represents = represents,
-          .quantity = "wrench",
-          .of = of,
-          .reference = frame,
-          .seen_by = frame};
+  return at_frame(slot, "wrench", represents, of, frame);
 }
 
 // Whether wrenches from outside already help to move the body here.
@@ -48,12 +42,8 @@ void configure_own(Motion motion, Context& context, const Visit& visit) {
   if (with_help)
     context.make(wrench(slot_of(motion, "own-wrench"), visit.node, visit["body"], visit.node));
   const std::string slot = slot_of(motion, with_help ? "inertial-wrench" : "own-wrench");
-  algorithm::BlockSpec spec = wrench(slot, visit.node, visit["body"], visit.node);
-  if (!context.has("inertia", visit["body"])) {
-    spec.role = Role::kConstant;
-    spec.value = kZero;
-  }
-  context.make(spec);
+  const algorithm::BlockSpec spec = wrench(slot, visit.node, visit["body"], visit.node);
+  context.make(context.has("inertia", visit["body"]) ? spec : zero(spec));
 }
 
 void compute_inertial(Motion motion, Context& context, const Visit& visit, BlockIndex wrench) {

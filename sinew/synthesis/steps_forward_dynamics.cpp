@@ -3,6 +3,7 @@
 // expensive recursion over inertias carries no velocity terms, and the transforms need no Coriolis
 // parts.
 #include "sinew/base/error.h"
+#include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/rotor.h"
 #include "sinew/synthesis/step_list.h"
@@ -13,27 +14,11 @@ namespace {
 
 using algorithm::BlockSpec;
 using algorithm::kNoIndex;
-using algorithm::Role;
-
-constexpr double kZero[21] = {};
-
-BlockSpec at(std::string_view slot, std::string_view quantity, Id represents, Id of, Id frame) {
-  return {.slot = slot,
-          .represents = represents,
-          .quantity = quantity,
-          .of = of,
-          .reference = frame,
-          .seen_by = frame};
-}
 
 void configure_own(Context& context, const Visit& visit) {
-  BlockSpec spec = at("own-articulated-inertia", "articulated-body-inertia", visit.node,
-                      visit["body"], visit.node);
-  if (!context.has("inertia", visit["body"])) {
-    spec.role = Role::kConstant;
-    spec.value = kZero;
-  }
-  context.make(spec);
+  const BlockSpec spec = at_frame("own-articulated-inertia", "articulated-body-inertia", visit.node,
+                                  visit["body"], visit.node);
+  context.make(context.has("inertia", visit["body"]) ? spec : zero(spec));
 }
 
 void compute_own(Context& context, const Visit& visit) {
@@ -57,7 +42,7 @@ BlockIndex inertia_so_far(const Context& context, Id frame) {
 void configure_inertia(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   if (edge.floats()) return;  // six columns at once: see compute_result
-  context.make(at("unit-wrench", "wrench", edge.joint, edge.successor, edge.child));
+  context.make(at_frame("unit-wrench", "wrench", edge.joint, edge.successor, edge.child));
   context.make(edge.coordinate("unit-force", "force"));
   make_rotor(context, edge, "unit-force");
 }
@@ -75,7 +60,7 @@ void compute_inertia(Context& context, const Visit& visit) {
 void configure_handing_on(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const auto make = [&](std::string_view slot, Id of, Id frame) {
-    return context.make(at(slot, "articulated-body-inertia", edge.joint, of, frame));
+    return context.make(at_frame(slot, "articulated-body-inertia", edge.joint, of, frame));
   };
   make("projected-inertia", edge.successor, edge.child);
   make("articulated-inertia-at-joint", edge.successor, edge.joint_frame);
@@ -112,10 +97,7 @@ void compute_handing_on(Context& context, const Visit& visit) {
 BlockIndex drive_so_far(Context& context, Id frame, Id body) {
   const BlockIndex sum = context.board.find("drive-wrench", frame);
   if (sum != kNoIndex) return sum;
-  BlockSpec none = at("no-drive-wrench", "wrench", frame, body, frame);
-  none.role = Role::kConstant;
-  none.value = std::span(kZero).first(6);
-  return context.make(none);
+  return context.make(zero(at_frame("no-drive-wrench", "wrench", frame, body, frame)));
 }
 
 void configure_drive(Context& context, const Visit& visit) {
@@ -141,7 +123,7 @@ void compute_drive(Context& context, const Visit& visit) {
 void configure_drive_on(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const auto make = [&](std::string_view slot, Id of, Id frame) {
-    return context.make(at(slot, "wrench", edge.joint, of, frame));
+    return context.make(at_frame(slot, "wrench", edge.joint, of, frame));
   };
   make("projected-wrench", edge.successor, edge.child);
   make("drive-wrench-at-joint", edge.successor, edge.joint_frame);
@@ -174,20 +156,14 @@ void compute_drive_on(Context& context, const Visit& visit) {
 }
 
 void configure_root(Context& context, const Visit& visit) {
-  BlockSpec spec =
-      at("drive-acceleration", "acceleration-twist", visit.node, visit["body"], visit.node);
-  spec.wrt = context.reference;
-  spec.role = Role::kConstant;
-  spec.value = std::span(kZero).first(6);
-  context.make(spec);
+  context.make(zero(at_frame("drive-acceleration", "acceleration-twist", visit.node, visit["body"],
+                             visit.node, context.reference)));
 }
 
 void configure_result(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const auto make = [&](std::string_view slot, Id represents, Id of, Id wrt, Id frame) {
-    BlockSpec spec = at(slot, "acceleration-twist", represents, of, frame);
-    spec.wrt = wrt;
-    context.make(spec);
+    context.make(at_frame(slot, "acceleration-twist", represents, of, frame, wrt));
   };
   make("drive-acceleration-at-joint", edge.joint, edge.predecessor, context.reference,
        edge.joint_frame);
@@ -196,13 +172,9 @@ void configure_result(Context& context, const Visit& visit) {
   make("drive-relative-acceleration", edge.joint, edge.successor, edge.predecessor, edge.child);
   make("drive-acceleration", edge.child, edge.successor, context.reference, edge.child);
   context.make(edge.coordinate("acceleration", "acceleration"));
-  if (!edge.floats()) return;
-  BlockSpec still =
-      at("no-relative-twist", "velocity-twist", edge.joint, edge.successor, edge.child);
-  still.wrt = edge.predecessor;
-  still.role = Role::kConstant;
-  still.value = std::span(kZero).first(6);
-  context.make(still);
+  if (edge.floats())
+    context.make(zero(at_frame("no-relative-twist", "velocity-twist", edge.joint, edge.successor,
+                               edge.child, edge.predecessor)));
 }
 
 void compute_result(Context& context, const Visit& visit) {

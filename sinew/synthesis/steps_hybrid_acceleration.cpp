@@ -1,6 +1,7 @@
 // The last sweep of hybrid dynamics: with the magnitudes x of the constraint forces, each joint is
 // driven by e + sum of x_i e_i, weighed over the drivers, and accelerations follow from the root
 // outward (Vereshchagin 1989, equation g); for all drivers together, and for each alone.
+#include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/effects.h"
 #include "sinew/synthesis/hybrid_steps.h"
 
@@ -9,9 +10,6 @@ namespace {
 
 using algorithm::BlockSpec;
 using algorithm::kNoIndex;
-using algorithm::Role;
-
-constexpr double kZero[6] = {};
 
 // Pairs of a unit effect and how many times it counts.
 struct Sum {
@@ -70,21 +68,11 @@ std::string name(const Context& context, const Response& response, std::string_v
 }
 
 void make_acceleration(Context& context, const Response& response, std::string_view slot, Id at,
-                       Id of, Id wrt, Id frame, bool zero = false) {
+                       Id of, Id wrt, Id frame, bool at_rest = false) {
   const std::string label = name(context, response, "", at);
-  BlockSpec spec = {.slot = slot,
-                    .represents = key(context, response, at),
-                    .quantity = "acceleration-twist",
-                    .of = of,
-                    .wrt = wrt,
-                    .reference = frame,
-                    .seen_by = frame,
-                    .label = label};
-  if (zero) {
-    spec.role = Role::kConstant;
-    spec.value = kZero;
-  }
-  context.make(spec);
+  BlockSpec spec = at_frame(slot, "acceleration-twist", key(context, response, at), of, frame, wrt);
+  spec.label = label;
+  context.make(at_rest ? zero(spec) : spec);
 }
 
 void make_joint(Context& context, const Response& response, const JointEdge& edge,
@@ -107,17 +95,9 @@ void configure_response(Context& context, const Response& response, const JointE
   make("response-relative", edge.joint, edge.successor, edge.predecessor, edge.child);
   make("response", edge.child, edge.successor, reference, edge.child);
   make_joint(context, response, edge, result, "acceleration");
-  if (!edge.floats()) return;
-  BlockSpec still = {.slot = "no-relative-twist",
-                     .represents = edge.joint,
-                     .quantity = "velocity-twist",
-                     .of = edge.successor,
-                     .wrt = edge.predecessor,
-                     .reference = edge.child,
-                     .seen_by = edge.child,
-                     .role = Role::kConstant,
-                     .value = kZero};
-  context.make(still);
+  if (edge.floats())
+    context.make(zero(at_frame("no-relative-twist", "velocity-twist", edge.joint, edge.successor,
+                               edge.child, edge.predecessor)));
 }
 
 void compute_response(Context& context, const Response& response, const JointEdge& edge,

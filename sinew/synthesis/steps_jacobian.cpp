@@ -2,6 +2,7 @@
 // each joint's velocity. Columns of joints that do not lead to the frame are zero.
 #include <algorithm>
 
+#include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/step_list.h"
 
@@ -9,9 +10,7 @@ namespace sinew::synthesis {
 namespace {
 
 using algorithm::BlockSpec;
-using algorithm::Role;
 
-constexpr double kZero[6] = {};
 constexpr std::string_view kAsksJacobian =
     SINEW_ASKS_PREFIX "ASK { ?algorithm sa:asks-jacobian ?node }";
 
@@ -37,20 +36,17 @@ void configure(Context& context, const Visit& visit) {
   for (const RobotJoint* joint : joints) {
     const std::string label = std::string(algorithm::short_name(terms.text(frame))) + "." +
                               std::string(algorithm::short_name(terms.text(joint->joint)));
-    BlockSpec spec = {.slot = "jacobian-column",
-                      .represents = context.pair(frame, joint->joint),
-                      .quantity = joint->kind == "floating" ? "jacobian-block" : "jacobian-column",
-                      .of = frame,
-                      .wrt = root,
-                      .reference = frame,
-                      .seen_by = root,
-                      .prismatic = joint->kind == "prismatic",
-                      .label = label};
-    if (!leads_to(context, *joint, frame)) {
-      spec.role = Role::kConstant;
-      spec.value = kZero;
-    }
-    context.make(spec);
+    const BlockSpec spec = {
+        .slot = "jacobian-column",
+        .represents = context.pair(frame, joint->joint),
+        .quantity = joint->kind == "floating" ? "jacobian-block" : "jacobian-column",
+        .of = frame,
+        .wrt = root,
+        .reference = frame,
+        .seen_by = root,
+        .prismatic = joint->kind == "prismatic",
+        .label = label};
+    context.make(leads_to(context, *joint, frame) ? spec : zero(spec));
   }
   const bool floats = !joints.empty() && joints.front()->kind == "floating";
   context.make({.slot = "jacobian",

@@ -1,5 +1,6 @@
 // What a robot does as a whole: centre of mass with its velocity and Jacobian, and momentum; all
 // seen from the root, and about its origin or the centre of mass.
+#include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/step_list.h"
 #include "sinew/synthesis/whole_robot.h"
@@ -9,28 +10,16 @@ namespace {
 
 using algorithm::BlockSpec;
 using algorithm::kNoIndex;
-using algorithm::Role;
-
-constexpr double kZero[6] = {};
 
 BlockSpec momentum(std::string_view slot, Id represents, Id of, Id frame) {
-  return {.slot = slot,
-          .represents = represents,
-          .quantity = "momentum",
-          .of = of,
-          .reference = frame,
-          .seen_by = frame};
+  return at_frame(slot, "momentum", represents, of, frame);
 }
 
 // ---- momentum ----
 
 void configure_own(Context& context, const Visit& visit) {
-  BlockSpec spec = momentum("own-momentum", visit.node, visit["body"], visit.node);
-  if (!context.has("inertia", visit["body"])) {
-    spec.role = Role::kConstant;
-    spec.value = kZero;
-  }
-  context.make(spec);
+  const BlockSpec spec = momentum("own-momentum", visit.node, visit["body"], visit.node);
+  context.make(context.has("inertia", visit["body"]) ? spec : zero(spec));
 }
 
 void compute_own(Context& context, const Visit& visit) {

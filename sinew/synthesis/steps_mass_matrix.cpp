@@ -2,6 +2,7 @@
 // column is the forces that one unit of acceleration of one joint takes, while the others are held.
 // The wrench of each joint travels inward by itself and meets the joints that it passes; entries of
 // joints on different branches are zero and cost nothing.
+#include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/composite.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/step_list.h"
@@ -11,19 +12,8 @@ namespace {
 
 using algorithm::BlockSpec;
 using algorithm::kNoIndex;
-using algorithm::Role;
 
-constexpr double kZero[10] = {};
 constexpr std::string_view kCarried = "acceleration-wrench";
-
-BlockSpec at(std::string_view slot, std::string_view quantity, Id represents, Id of, Id frame) {
-  return {.slot = slot,
-          .represents = represents,
-          .quantity = quantity,
-          .of = of,
-          .reference = frame,
-          .seen_by = frame};
-}
 
 }  // namespace
 
@@ -31,10 +21,7 @@ BlockIndex composite_so_far(Context& context, Id frame, Id body) {
   const BlockIndex sum = context.board.find("composite-inertia", frame);
   if (sum != kNoIndex) return sum;
   if (context.has("inertia", body)) return context.block("inertia", body);
-  BlockSpec none = at("no-inertia", "rigid-body-inertia", body, body, frame);
-  none.role = Role::kConstant;
-  none.value = kZero;
-  return context.make(none);
+  return context.make(zero(at_frame("no-inertia", "rigid-body-inertia", body, body, frame)));
 }
 
 namespace {
@@ -42,7 +29,7 @@ namespace {
 void configure_composite(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const auto make = [&](std::string_view slot, Id of, Id frame) {
-    return context.make(at(slot, "rigid-body-inertia", edge.joint, of, frame));
+    return context.make(at_frame(slot, "rigid-body-inertia", edge.joint, of, frame));
   };
   composite_so_far(context, edge.child, edge.successor);
   make("composite-inertia-at-joint", edge.successor, edge.joint_frame);
@@ -83,7 +70,7 @@ std::string label(const Context& context, Id a, Id b) {
 BlockIndex make_wrench(Context& context, std::string_view slot, const JointEdge& edge, Id origin,
                        Id of, Id frame) {
   const std::string name = label(context, edge.joint, origin);
-  BlockSpec spec = at(slot, "wrench", context.pair(edge.joint, origin), of, frame);
+  BlockSpec spec = at_frame(slot, "wrench", context.pair(edge.joint, origin), of, frame);
   spec.label = name;
   return context.make(spec);
 }
@@ -144,14 +131,12 @@ void configure_matrix(Context& context, const Visit& visit) {
                 .quantity = "mass-matrix",
                 .size = n * n,
                 .label = algorithm::kWholeRobot});
-  context.make({.slot = "no-force",
-                .represents = visit["body"],
-                .quantity = "joint-force",
-                .of = visit["body"],
-                .wrt = visit["body"],
-                .seen_by = visit.node,
-                .role = Role::kConstant,
-                .value = std::span(kZero).first(1)});
+  context.make(zero({.slot = "no-force",
+                     .represents = visit["body"],
+                     .quantity = "joint-force",
+                     .of = visit["body"],
+                     .wrt = visit["body"],
+                     .seen_by = visit.node}));
 }
 
 // Symmetric: the entry of two joints was made where the outer one's wrench met the inner one.

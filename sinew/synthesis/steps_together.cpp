@@ -4,16 +4,13 @@
 #include <functional>
 #include <unordered_set>
 
+#include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/motion.h"
 #include "sinew/synthesis/step_list.h"
 
 namespace sinew::synthesis {
 namespace {
-
-using algorithm::Role;
-
-constexpr double kZero[6] = {};
 
 // ---- a force as the sum of two ----
 
@@ -69,21 +66,11 @@ void configure_gravity_root(Context& context, const Visit& visit) {
 void configure_gravity(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const auto acceleration = [&](std::string_view slot, Id represents, Id of, Id wrt) {
-    return algorithm::BlockSpec{.slot = slot,
-                                .represents = represents,
-                                .quantity = "acceleration-twist",
-                                .of = of,
-                                .wrt = wrt,
-                                .reference = edge.child,
-                                .seen_by = edge.child};
+    return at_frame(slot, "acceleration-twist", represents, of, edge.child, wrt);
   };
   const Id root = context.robot.root_body;
   context.make(acceleration("gravity-acceleration-of-root", edge.child, root, context.reference));
-  algorithm::BlockSpec none =
-      acceleration("no-acceleration-from-root", edge.child, edge.successor, root);
-  none.role = Role::kConstant;
-  none.value = kZero;
-  context.make(none);
+  context.make(zero(acceleration("no-acceleration-from-root", edge.child, edge.successor, root)));
   const std::string slot = slot_of(Motion::kRest, "body-acceleration");
   context.make(acceleration(slot, edge.child, edge.successor, context.reference));
 }

@@ -1,6 +1,7 @@
 // Velocity twists. Each body's is absolute (with respect to the context's reference) and seen from
 // the body's own frame. The fixed placement of a joint and its motion are transforms of their own:
 // the first has constant coefficients, the second one or two that vary.
+#include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/free_joint.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/step_list.h"
@@ -9,25 +10,13 @@ namespace sinew::synthesis {
 namespace {
 
 using algorithm::BlockSpec;
-using algorithm::Role;
-
-constexpr double kZero[6] = {};
 
 void configure_relative(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
-  BlockSpec spec = {.slot = "relative-twist",
-                    .represents = edge.joint,
-                    .quantity = "velocity-twist",
-                    .of = edge.successor,
-                    .wrt = edge.predecessor,
-                    .reference = edge.child,
-                    .seen_by = edge.child};
+  const BlockSpec spec = at_frame("relative-twist", "velocity-twist", edge.joint, edge.successor,
+                                  edge.child, edge.predecessor);
   const FreePart part = free_part(context, edge.joint);
-  if (part.whole != nullptr && !part.last) {
-    spec.role = Role::kConstant;
-    spec.value = kZero;
-  }
-  context.make(spec);
+  context.make(part.whole != nullptr && !part.last ? zero(spec) : spec);
 }
 
 void compute_relative(Context& context, const Visit& visit) {
@@ -48,27 +37,14 @@ void compute_relative(Context& context, const Visit& visit) {
 
 // The root is at rest.
 void configure_root(Context& context, const Visit& visit) {
-  context.make({.slot = "body-twist",
-                .represents = visit.node,
-                .quantity = "velocity-twist",
-                .of = visit["body"],
-                .wrt = context.reference,
-                .reference = visit.node,
-                .seen_by = visit.node,
-                .role = Role::kConstant,
-                .value = kZero});
+  context.make(zero(at_frame("body-twist", "velocity-twist", visit.node, visit["body"], visit.node,
+                             context.reference)));
 }
 
 void configure_body(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const auto twist = [&](std::string_view slot, Id represents, Id of, Id frame) {
-    context.make({.slot = slot,
-                  .represents = represents,
-                  .quantity = "velocity-twist",
-                  .of = of,
-                  .wrt = context.reference,
-                  .reference = frame,
-                  .seen_by = frame});
+    context.make(at_frame(slot, "velocity-twist", represents, of, frame, context.reference));
   };
   twist("twist-at-joint", edge.joint, edge.predecessor, edge.joint_frame);
   twist("twist-across-joint", edge.joint, edge.predecessor, edge.child);
