@@ -102,6 +102,21 @@ constexpr OperatorRow kRows[] = {
      "decomposition*:mass-matrix-decomposition force:joint-forces bias:joint-forces "
      "map:coordinate-map -> acceleration:joint-accelerations",
      "", "qdd = M^-1 (tau - h)"},
+    {"drive-from-decomposition", SINEW_OWN "drive-from-decomposition",
+     "decomposition*:mass-matrix-decomposition force:joint-forces map:coordinate-map -> "
+     "drive:joint-forces",
+     "", "L' e = tau"},
+    {"acceleration-from-drive", SINEW_OWN "acceleration-from-drive",
+     "decomposition*:mass-matrix-decomposition drive:joint-forces map:coordinate-map -> "
+     "acceleration:joint-accelerations",
+     "", "D L qdd = e"},
+    {"acceleration-energy-of-drives", SINEW_OWN "acceleration-energy-of-drives",
+     "decomposition*:mass-matrix-decomposition drive1:joint-forces drive2:joint-forces "
+     "map:coordinate-map -> energy:acceleration-energy",
+     "", "e_1' D^-1 e_2 = tau_1' M^-1 tau_2"},
+    {"weigh-drives", SINEW_OWN "weigh-drives",
+     "drives*:joint-forces magnitudes*:magnitude map:coordinate-map -> sum:joint-forces", "",
+     "sum of x_k e_k"},
 };
 
 }  // namespace

@@ -56,15 +56,35 @@ void decompose_mass_matrix(S* M, int n) {
   }
 }
 
-// x = M^-1 x, with the L and D of M.
+// x = L^-T x: of forces of all coordinates, what drives each one while those after it give way.
 template <typename S>
-void solve_decomposed(const S* M, int n, S* x) {
+void drive_decomposed(const S* M, int n, S* x) {
   for (int k = n - 1; k >= 0; --k)
     for (int i = 0; i < k; ++i) x[i] = x[i] - M[k * n + i] * x[k];
+}
+
+// x = L^-1 D^-1 x: the accelerations, from what drives each coordinate.
+template <typename S>
+void accelerate_decomposed(const S* M, int n, S* x) {
   for (int k = 0; k < n; ++k) {
     x[k] = x[k] / M[k * n + k];
     for (int i = 0; i < k; ++i) x[k] = x[k] - M[k * n + i] * x[i];
   }
+}
+
+// x = M^-1 x, with the L and D of M.
+template <typename S>
+void solve_decomposed(const S* M, int n, S* x) {
+  drive_decomposed(M, n, x);
+  accelerate_decomposed(M, n, x);
+}
+
+// x^T D^-1 y of two drives: the acceleration energy of one along the other.
+template <typename S>
+S energy_decomposed(const S* M, int n, const S* x, const S* y) {
+  S sum(0);
+  for (int k = 0; k < n; ++k) sum = sum + x[k] * (y[k] / M[k * n + k]);
+  return sum;
 }
 
 // The n x n matrix G^T (M + diag(rotor)) G of m coordinates from that of n joints; G is n x m.

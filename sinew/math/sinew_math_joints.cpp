@@ -113,3 +113,27 @@ void sinew_acceleration_from_decomposition(const double* const in[], int, double
   for (int i = 0; i < n; ++i) qdd[i] = in[1][i] - in[2][i];
   solve_decomposed(in[0], n, qdd);
 }
+
+void sinew_drive_from_decomposition(const double* const in[], int, double* drive) {
+  const int n = static_cast<int>(*in[2]);
+  for (int i = 0; i < n; ++i) drive[i] = in[1][i];
+  drive_decomposed(in[0], n, drive);
+}
+
+void sinew_acceleration_from_drive(const double* const in[], int, double* qdd) {
+  const int n = static_cast<int>(*in[2]);
+  for (int i = 0; i < n; ++i) qdd[i] = in[1][i];
+  accelerate_decomposed(in[0], n, qdd);
+}
+
+void sinew_acceleration_energy_of_drives(const double* const in[], int, double* energy) {
+  *energy = energy_decomposed(in[0], static_cast<int>(*in[3]), in[1], in[2]);
+}
+
+void sinew_weigh_drives(const double* const in[], int count, double* sum) {
+  const int n = static_cast<int>(*in[count - 1]), pairs = (count - 1) / 2;
+  for (int k = 0; k < n; ++k) {
+    sum[k] = 0;
+    for (int i = 0; i < pairs; ++i) sum[k] += *in[pairs + i] * in[i][k];
+  }
+}

@@ -51,6 +51,13 @@ void sinew_factorise_mass_matrix(const double* const in[], int count, double* L)
 void sinew_decompose_mass_matrix(const double* const in[], int count, double* LD);
 void sinew_acceleration_from_decomposition(const double* const in[], int count, double* qdd);
 
+/* The two halves of that solution, e = L^-T tau and qdd = L^-1 D^-1 e; e_1' D^-1 e_2; and a sum of
+ * drives, each as many times as a number says (first the drives, then the numbers). */
+void sinew_drive_from_decomposition(const double* const in[], int count, double* drive);
+void sinew_acceleration_from_drive(const double* const in[], int count, double* qdd);
+void sinew_acceleration_energy_of_drives(const double* const in[], int count, double energy[1]);
+void sinew_weigh_drives(const double* const in[], int count, double* sum);
+
 #ifdef __cplusplus
 }
 #endif

@@ -53,6 +53,30 @@ void accelerate(S* const* arguments, Sizes sizes) {
   solve_decomposed(arguments[0], static_cast<int>(n), x);
 }
 
+template <typename S, void (*kSolve)(const S*, int, S*)>
+void solve_half(S* const* arguments, Sizes sizes) {
+  std::copy_n(arguments[1], sizes[1], arguments[3]);
+  kSolve(arguments[0], static_cast<int>(sizes[1]), arguments[3]);
+}
+
+template <typename S>
+void energy_of_drives(S* const* arguments, Sizes sizes) {
+  *arguments[4] =
+      energy_decomposed(arguments[0], static_cast<int>(sizes[1]), arguments[1], arguments[2]);
+}
+
+// Pairs of a drive and how many times it counts: first all drives, then all numbers, then the map.
+template <typename S>
+void weigh_drives(S* const* arguments, Sizes sizes) {
+  const std::size_t pairs = (sizes.size() - kMapAndOutput) / 2;
+  S* const sum = arguments[sizes.size() - 1];
+  for (std::uint32_t k = 0; k < sizes.back(); ++k) {
+    sum[k] = S(0);
+    for (std::size_t i = 0; i < pairs; ++i)
+      sum[k] = sum[k] + *arguments[pairs + i] * arguments[i][k];
+  }
+}
+
 template <typename S>
 void couple_mass(S* const* arguments, Sizes sizes) {
   int n = 0;
@@ -95,6 +119,14 @@ std::uint32_t of_acceleration(Sizes sizes) {
   const bool fit = sizes.size() == 4 && sizes[1] == sizes[2] && sizes[0] == sizes[1] * sizes[1];
   return fit ? sizes[1] : 0;
 }
+
+std::uint32_t of_half(Sizes sizes) {
+  return sizes.size() == 3 && sizes[0] == sizes[1] * sizes[1] ? sizes[1] : 0;
+}
+
+std::uint32_t of_weighed(Sizes sizes) { return sizes.size() % 2 == 1 ? sizes.front() : 0; }
+
+std::uint32_t of_energy(Sizes sizes) { return of_acceleration(sizes) != 0 ? 1 : 0; }
 
 std::uint32_t of_coupled_mass(Sizes sizes) {
   const std::uint32_t n = sizes.size() == 2 ? root(sizes[0]) : 0;
@@ -163,6 +195,13 @@ std::vector<Kernel> kernels_of_joints() {
        &factorise<Traced, &decompose_mass_matrix<Traced>>, &of_factor);
   many("acceleration-from-decomposition", &accelerate<double>, &accelerate<Traced>,
        &of_acceleration);
+  many("drive-from-decomposition", &solve_half<double, &drive_decomposed<double>>,
+       &solve_half<Traced, &drive_decomposed<Traced>>, &of_half);
+  many("acceleration-from-drive", &solve_half<double, &accelerate_decomposed<double>>,
+       &solve_half<Traced, &accelerate_decomposed<Traced>>, &of_half);
+  many("acceleration-energy-of-drives", &energy_of_drives<double>, &energy_of_drives<Traced>,
+       &of_energy);
+  many("weigh-drives", &weigh_drives<double>, &weigh_drives<Traced>, &of_weighed);
   return rows;
 }
 

@@ -41,10 +41,9 @@ void lead(Context& context, std::size_t leader, std::string_view slot) {
   }
 }
 
-}  // namespace
-
-void take_all(Context& context, std::string_view slot, BlockIndex numbers) {
-  const AsCoordinateStep step(context);
+// Calls take(joint, target, map) for each joint of the tree that follows none.
+template <typename Take>
+void for_each_number(Context& context, std::string_view what, Take take) {
   const auto& joints = context.robot.joints;
   std::size_t width = 0, at = 0;
   for (const Coordinate& coordinate : coordinates(context.robot))
@@ -52,18 +51,48 @@ void take_all(Context& context, std::string_view slot, BlockIndex numbers) {
       width += joints[part].kind == "floating" ? 6 : 1;
   for (const Coordinate& coordinate : coordinates(context.robot)) {
     for (const std::size_t part : coordinate.parts) {
-      BlockSpec target = joint_quantity(slot, joints[part]);
-      const bool floats = joints[part].kind == "floating";
       std::vector<double> factors(width, 0.0);
       factors[at] = 1;
-      at += floats ? 6 : 1;
-      const BlockIndex map = make_map(context, target, factors, 0);
-      context.closure(
-          floats ? "floating-" + std::string(slot) + "-of-robot" : std::string(slot) + "-of-part",
-          {numbers, map, context.make(target)}, joints[part].joint);
-      lead(context, part, slot);
+      at += joints[part].kind == "floating" ? 6 : 1;
+      const BlockIndex map = make_map(context, joint_quantity(what, joints[part]), factors, 0);
+      take(part, map);
     }
   }
+}
+
+std::string part_operator(std::string_view what, const RobotJoint& joint) {
+  const std::string name(what);
+  return joint.kind == "floating" ? "floating-" + name + "-of-robot" : name + "-of-part";
+}
+
+}  // namespace
+
+void take_all(Context& context, std::string_view slot, BlockIndex numbers) {
+  const AsCoordinateStep step(context);
+  for_each_number(context, slot, [&](std::size_t part, BlockIndex map) {
+    const RobotJoint& joint = context.robot.joints[part];
+    const BlockIndex target = context.make(joint_quantity(slot, joint));
+    context.closure(part_operator(slot, joint), {numbers, map, target}, joint.joint);
+    lead(context, part, slot);
+  });
+}
+
+void take_all_of(Context& context, std::string_view slot, std::string_view what, BlockIndex numbers,
+                 Id effect, std::string_view label) {
+  const AsCoordinateStep step(context);
+  for_each_number(context, what, [&](std::size_t part, BlockIndex map) {
+    const RobotJoint& joint = context.robot.joints[part];
+    const std::string name =
+        std::string(label) + "." +
+        std::string(joint.label.empty()
+                        ? algorithm::short_name(context.view.terms().text(joint.joint))
+                        : std::string_view(joint.label));
+    BlockSpec target = joint_quantity(what, joint);
+    target.slot = slot;
+    target.represents = context.pair(effect, joint.joint);
+    target.label = name;
+    context.closure(part_operator(what, joint), {numbers, map, context.make(target)}, joint.joint);
+  });
 }
 
 std::vector<Coordinate> coordinates(const Robot& robot) {
@@ -82,11 +111,25 @@ std::vector<Coordinate> coordinates(const Robot& robot) {
   return list;
 }
 
+std::vector<Id> followers_of_the_model(const Robot& robot) {
+  std::vector<Id> found;
+  for (const RobotJoint& joint : robot.joints)
+    if (joint.follows >= 0 && joint.compound < 0) found.push_back(joint.joint);
+  for (const RobotCompound& compound : robot.compounds) {
+    const bool all = std::all_of(compound.parts.begin(), compound.parts.end(),
+                                 [&](std::size_t k) { return robot.joints[k].follows >= 0; });
+    if (all) found.push_back(compound.joint);
+  }
+  return found;
+}
+
+bool is_named(const graph::View& view, Id node, std::string_view name) {
+  const std::string_view iri = view.terms().text(node);
+  return iri == name || algorithm::is_called(iri, name);
+}
+
 Coordinate find_coordinate(const graph::View& view, const Robot& robot, std::string_view name) {
-  const auto named = [&](Id joint) {
-    const std::string_view iri = view.terms().text(joint);
-    return iri == name || algorithm::is_called(iri, name);
-  };
+  const auto named = [&](Id joint) { return is_named(view, joint, name); };
   const auto list = coordinates(robot);
   for (const Coordinate& coordinate : list)
     if (named(coordinate.joint)) return coordinate;

@@ -19,7 +19,7 @@ std::vector<Id> driver_elements(graph::Store& store, const Robot& robot, const Q
   if (kind == Element::kDriverJoint)
     for (const DriverGroup& group : drivers.groups)
       for (const RobotJoint& joint : robot.joints)
-        found.push_back(terms.derived(pair, {group.element, joint.joint}));
+        if (joint.follows < 0) found.push_back(terms.derived(pair, {group.element, joint.joint}));
   if (kind == Element::kLimited && drivers.limited != kNoDriver)
     found.push_back(drivers.groups[drivers.limited].element);
   if (!found.empty()) return found;
@@ -82,6 +82,7 @@ void write_driver_list(const Context& context, graph::Transaction& transaction) 
     for (const RobotJoint& joint : context.robot.joints)
       for (const std::string_view slot : {"effect-force", "driver-acceleration"})
         add_effect(slot, terms.derived(pair, {node, joint.joint}));
+    add_effect("effect-drive", node);
     for (const ConstraintDirection& direction : context.drivers.directions)
       add_effect("driver-magnitude", terms.derived(pair, {direction.element, node}));
     list.push_back(node);

@@ -268,6 +268,7 @@ class Resolver {
     if (gives("joint-force") || of_task) {
       DriverGroup* every = all_joints ? &new_group("joint-force", root) : nullptr;
       for (const RobotJoint& joint : robot_.joints) {
+        if (joint.follows >= 0) continue;
         const std::string name(joint.label.empty() ? short_name(view_.terms().text(joint.joint))
                                                    : std::string_view(joint.label));
         const bool own = apart || names(joint.joint, name);
@@ -319,8 +320,10 @@ class Resolver {
   }
 
   void check_limits() {
-    if (std::all_of(drivers_.force_limits.begin(), drivers_.force_limits.end(),
-                    [](double limit) { return std::isnan(limit); }))
+    bool any = false;  // of a joint that has an actuator
+    for (std::size_t i = 0; i < robot_.joints.size(); ++i)
+      any |= robot_.joints[i].follows < 0 && !std::isnan(drivers_.force_limits[i]);
+    if (!any)
       refuse(query_.drivers.limited_origin, query_.drivers.limited,
              "it is to be scaled down until no actuator saturates, but no joint has a limit",
              "state the joints' maximum forces in the model");

@@ -45,13 +45,16 @@ std::vector<Id> elements(graph::Store& store, const graph::View& view, const Rob
       path_to(robot, view, found.back());
       return found;
     case Element::kJoint:
-      if (!asked.of.empty() && asked.of != kEveryJoint)
+      if (!asked.of.empty() && asked.of != kEveryJoint) {
+        if (asked.quantity == "joint-wrench")
+          for (const Id joint : followers_of_the_model(robot))
+            if (is_named(view, joint, asked.of)) return {joint};
         return {find_coordinate(view, robot, asked.of).joint};
+      }
       for (const Coordinate& coordinate : coordinates(robot)) found.push_back(coordinate.joint);
       // A joint that follows another has no numbers of its own, but a bearing.
       if (asked.quantity == "joint-wrench")
-        for (const RobotJoint& joint : robot.joints)
-          if (joint.follows >= 0 && joint.compound < 0) found.push_back(joint.joint);
+        for (const Id joint : followers_of_the_model(robot)) found.push_back(joint);
       return found;
   }
   return found;

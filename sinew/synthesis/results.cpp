@@ -53,6 +53,17 @@ BlockIndex coupled_force(Context& context, std::string_view slot, std::size_t pa
                      [&](std::size_t k) { return context.robot.joints[k].joint; });
 }
 
+BlockIndex coupled_effect(Context& context, std::string_view slot, Id effect, std::size_t part) {
+  const AsCoordinateStep step(context);
+  const auto element = [&](std::size_t k) {
+    return context.pair(effect, context.robot.joints[k].joint);
+  };
+  bool reaches = context.board.find(slot, element(part)) != algorithm::kNoIndex;
+  for (const std::size_t k : followers(context.robot, part))
+    reaches |= context.board.find(slot, element(k)) != algorithm::kNoIndex;
+  return reaches ? add_coupled(context, slot, part, element) : algorithm::kNoIndex;
+}
+
 namespace {
 
 // The share that a wrench from outside has in a coordinate's force. `pair` stands for the joint and
@@ -126,7 +137,13 @@ BlockIndex gathered(Context& context, std::string_view slot, Id joint) {
   const auto list = coordinates(context.robot);
   const auto found = std::find_if(list.begin(), list.end(),
                                   [&](const Coordinate& one) { return one.joint == joint; });
-  if (found == list.end()) return context.block(slot, joint);
+  if (found == list.end()) {
+    // Behind the last part of a joint that follows another; see below.
+    for (const RobotCompound& compound : context.robot.compounds)
+      if (compound.joint == joint)
+        return context.block(slot, context.robot.joints[compound.parts.back()].joint);
+    return context.block(slot, joint);
+  }
   const BlockIndex first = context.block(slot, context.robot.joints[found->parts.front()].joint);
   const std::string_view quantity = context.builder.at(first).quantity->name;
   const bool force = quantity == "joint-force";

@@ -16,6 +16,10 @@ BlockIndex gathered(Context& context, std::string_view slot, Id joint);
 // have filled.
 BlockIndex coupled_force(Context& context, std::string_view slot, std::size_t joint);
 
+// The same of what one effect (effects.h) exerts; algorithm::kNoIndex where it reaches none of
+// them.
+BlockIndex coupled_effect(Context& context, std::string_view slot, Id effect, std::size_t joint);
+
 // A matrix that the steps have filled for the joints of the tree, for the coordinates instead.
 BlockIndex coupled_matrix(Context& context, BlockIndex matrix);
 

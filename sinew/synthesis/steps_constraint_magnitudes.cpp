@@ -6,8 +6,9 @@
 // Each group of drivers is balanced by itself, with the same factors.
 #include <cmath>
 
-#include "sinew/synthesis/effects.h"
+#include "sinew/synthesis/coupled_drives.h"
 #include "sinew/synthesis/hybrid_steps.h"
+#include "sinew/synthesis/results.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -50,6 +51,10 @@ BlockIndex make_energy(Context& context, std::string_view slot, Id direction, Id
 }
 
 void configure_energy(Context& context, Id direction, Id effect) {
+  if (context.robot.coupled()) {
+    make_energy(context, "effect-energy", direction, effect);
+    return;
+  }
   const JointEffects joints = common_joints(context, direction, effect);
   if (joints.empty()) {
     context.board.put("effect-energy", context.pair(direction, effect), no_energy(context));
@@ -64,6 +69,11 @@ void configure_energy(Context& context, Id direction, Id effect) {
 
 // The acceleration that an effect causes along a constraint.
 void compute_energy(Context& context, Id direction, Id effect) {
+  if (context.robot.coupled()) {
+    energy_of_drives(context, direction, effect,
+                     effect_block(context, "effect-energy", direction, effect), direction);
+    return;
+  }
   const JointEffects joints = common_joints(context, direction, effect);
   if (joints.empty()) return;
   const auto block = [&](std::string_view slot) {
@@ -195,14 +205,15 @@ void compute_magnitudes(Context& context, const Visit& visit) {
 
 // A joint's actuator force because of one group: what is given for it, and what replaces the
 // constraint forces.
-void actuator_force(Context& context, const DriverGroup& group, Id joint,
+void actuator_force(Context& context, const DriverGroup& group, std::size_t part,
                     std::vector<BlockIndex>& forces, std::vector<BlockIndex>& magnitudes) {
+  const Id joint = context.robot.joints[part].joint;
   if (group.has_joint(joint)) {
     forces.push_back(context.block("force", joint));
     magnitudes.push_back(times(context, 1));
   }
   for (const ConstraintDirection& direction : context.drivers.directions) {
-    const BlockIndex lever = effect_block(context, "constraint-lever", direction.element, joint);
+    const BlockIndex lever = coupled_effect(context, "constraint-lever", direction.element, part);
     if (lever == kNoIndex) continue;
     forces.push_back(lever);
     magnitudes.push_back(
@@ -210,8 +221,10 @@ void actuator_force(Context& context, const DriverGroup& group, Id joint,
   }
 }
 
+// A joint that follows another has no actuator of its own.
 bool is_limited(const Context& context, std::size_t joint) {
-  return !std::isnan(context.drivers.force_limits[joint]) &&
+  return context.robot.joints[joint].follows < 0 &&
+         !std::isnan(context.drivers.force_limits[joint]) &&
          context.robot.joints[joint].kind != "floating";
 }
 
@@ -256,7 +269,7 @@ void compute_scale(Context& context, const Visit&) {
       std::vector<BlockIndex> forces, magnitudes;
       for (std::size_t k = 0; k < groups.size(); ++k)
         if ((k == context.drivers.limited) == of_scaled)
-          actuator_force(context, groups[k], joint.joint, forces, magnitudes);
+          actuator_force(context, groups[k], i, forces, magnitudes);
       const BlockIndex sum = context.block(
           of_scaled ? "actuator-force-of-scaled" : "actuator-force-of-rest", joint.joint);
       if (forces.empty()) {

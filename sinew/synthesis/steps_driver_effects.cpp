@@ -5,7 +5,7 @@
 // equations b and c; for one driver alone it is the articulated-body algorithm's bias force,
 // Featherstone 2008, equation 7.28). Since all is linear in e, each effect travels by itself and
 // keeps its origin.
-#include "sinew/synthesis/effects.h"
+#include "sinew/synthesis/effect_wrenches.h"
 #include "sinew/synthesis/hybrid_steps.h"
 
 namespace sinew::synthesis {
@@ -15,125 +15,13 @@ using algorithm::kNoIndex;
 
 constexpr std::string_view kWrench = "effect-wrench";
 
-// ---- on bodies ----
-
-// The wrench that moves the body as it moves, without what acts on it from outside.
-BlockIndex inertial_wrench(const Context& context, Id frame) {
-  const BlockIndex found = context.board.find("bias-inertial-wrench", frame);
-  return found != kNoIndex ? found : context.block("bias-own-wrench", frame);
-}
-
-// The part of gravity, of velocity, or of both in it. Where nothing is kept apart, what acts from
-// outside has been taken off already.
-BlockIndex own_wrench(const Context& context, const DriverGroup& group, const Visit& visit) {
-  const bool falls = context.reference != context.robot.root_body;
-  if (group.velocity && !context.drivers.apart)
-    return context.block("bias-own-wrench", visit.node);
-  if (!context.has("inertia", visit["body"])) return kNoIndex;
-  if (group.velocity && !falls) return inertial_wrench(context, visit.node);
-  if (group.gravity && falls) return context.block("gravity-own-wrench", visit.node);
-  if (group.velocity) return context.block("velocity-own-wrench", visit.node);
-  return kNoIndex;
-}
-
-bool needs_velocity_alone(const Context& context) {
-  return context.drivers.apart && context.reference != context.robot.root_body;
-}
-
-std::vector<BlockIndex> outer_wrenches(const Context& context, const DriverGroup& group,
-                                       Id frame) {
-  std::vector<BlockIndex> found;
-  if (!context.drivers.apart) return found;
-  for (const std::size_t index : group.wrenches) {
-    const ExternalWrench& wrench = context.wrenches[index];
-    if (wrench.body_frame == frame)
-      found.push_back(context.block("external-wrench-alone", wrench.frame));
-  }
-  return found;
-}
-
 void configure_body(Context& context, const Visit& visit) {
-  if (context.has("inertia", visit["body"]) && needs_velocity_alone(context))
-    context.make({.slot = "velocity-own-wrench",
-                  .represents = visit.node,
-                  .quantity = "wrench",
-                  .of = visit["body"],
-                  .reference = visit.node,
-                  .seen_by = visit.node});
-  const std::vector<Effect> list = effects(context);
-  for (const Effect& effect : list) {
-    const Id key = context.pair(effect.element, visit.node);
-    BlockIndex wrench = kNoIndex;
-    if (effect.group != nullptr) {
-      const std::vector<BlockIndex> outer = outer_wrenches(context, *effect.group, visit.node);
-      const BlockIndex own = own_wrench(context, *effect.group, visit);
-      if (outer.size() == 1 && own == kNoIndex) {
-        wrench = outer.front();
-      } else if (!outer.empty() || own != kNoIndex) {
-        wrench = make_effect_wrench(context, effect, "driver-wrench", visit.node, visit["body"],
-                                    visit.node);
-      }
-    } else {
-      for (const ConstraintDirection& direction : context.drivers.directions)
-        if (direction.element == effect.element &&
-            context.drivers.constraints[direction.constraint].at.body_frame == visit.node)
-          wrench = context.block("constraint-wrench", direction.element);
-    }
-    if (wrench == kNoIndex) continue;
-    // What successors have handed on already comes on top.
-    const BlockIndex before = context.board.find(kWrench, key);
-    if (before == kNoIndex) {
-      context.board.put(kWrench, key, wrench);
-      continue;
-    }
-    context.board.put("effect-wrench-of-successors", key, before);
-    context.board.put("effect-wrench-own", key, wrench);
-    context.board.put(kWrench, key,
-                      make_effect_wrench(context, effect, "effect-wrench-on-body", visit.node,
-                                         visit["body"], visit.node));
-  }
-}
-
-void compute_driver_wrench(Context& context, const Effect& effect, const Visit& visit) {
-  const BlockIndex result = effect_block(context, "driver-wrench", effect.element, visit.node);
-  if (result == kNoIndex) return;
-  std::vector<BlockIndex> outer = outer_wrenches(context, *effect.group, visit.node);
-  const BlockIndex own = own_wrench(context, *effect.group, visit);
-  // Whatever comes last writes the result.
-  BlockIndex sum = outer.empty() ? no_wrench(context, visit.node, visit["body"]) : outer.front();
-  for (std::size_t i = 1; i < outer.size(); ++i) {
-    const bool last = i + 1 == outer.size() && own == kNoIndex;
-    const std::string slot = "driver-wrench-" + std::to_string(i);
-    const BlockIndex next =
-        last ? result
-             : make_effect_wrench(context, effect, slot, visit.node, visit["body"], visit.node);
-    context.closure("accumulate-wrench", {sum, outer[i], next}, visit["body"]);
-    sum = next;
-  }
-  if (own != kNoIndex) context.closure("subtract-wrench", {sum, own, result}, visit["body"]);
+  configure_effect_wrenches(context, visit, effects(context));
 }
 
 void compute_body(Context& context, const Visit& visit) {
-  if (context.has("velocity-own-wrench", visit.node))
-    context.closure("subtract-wrench",
-                    {inertial_wrench(context, visit.node),
-                     context.block("gravity-own-wrench", visit.node),
-                     context.block("velocity-own-wrench", visit.node)},
-                    visit["body"]);
-  for (const Effect& effect : effects(context)) {
-    if (effect.group != nullptr) compute_driver_wrench(context, effect, visit);
-    const BlockIndex sum =
-        effect_block(context, "effect-wrench-on-body", effect.element, visit.node);
-    if (sum == kNoIndex) continue;
-    context.closure(
-        "accumulate-wrench",
-        {effect_block(context, "effect-wrench-of-successors", effect.element, visit.node),
-         effect_block(context, "effect-wrench-own", effect.element, visit.node), sum},
-        visit["body"]);
-  }
+  compute_effect_wrenches(context, visit, effects(context));
 }
-
-// ---- across joints ----
 
 BlockIndex given_force(const Context& context, const Effect& effect, const JointEdge& edge) {
   if (effect.group == nullptr || !effect.group->has_joint(edge.joint)) return kNoIndex;
@@ -229,12 +117,8 @@ void compute_joint(Context& context, const Visit& visit) {
 }  // namespace
 
 Step driver_effects_step(const MotionDrivers& drivers) {
-  std::vector<std::string> needs = {"placement",  "pose-across-joint", "unit-wrench",
-                                    "unit-force", "inertia",           "bias-own-wrench"};
-  for (const DriverGroup& group : drivers.groups) {
-    if (group.gravity && !group.velocity) needs.emplace_back("gravity-own-wrench");
-    if (!group.joints.empty() && needs.back() != "force") needs.emplace_back("force");
-  }
+  std::vector<std::string> needs = needs_of_driver_wrenches(drivers);
+  needs.insert(needs.end(), {"unit-wrench", "unit-force"});
   if (!drivers.constraints.empty()) needs.emplace_back("constraint-wrench");
   return {.name = "driver-effects",
           .purpose = "what reaches each joint of each driver and each unit constraint force",

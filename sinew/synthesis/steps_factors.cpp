@@ -2,8 +2,9 @@
 // 2008, chapter 6), and forward dynamics by them: for robots in which some joints follow others,
 // and to compare with.
 #include "sinew/synthesis/coordinates.h"
-#include "sinew/synthesis/results.h"
+#include "sinew/synthesis/factors.h"
 #include "sinew/synthesis/joint_edge.h"
+#include "sinew/synthesis/results.h"
 #include "sinew/synthesis/step_list.h"
 #include "sinew/synthesis/weightless.h"
 #include "sinew/synthesis/whole_robot.h"
@@ -13,24 +14,6 @@ namespace {
 
 using algorithm::BlockSpec;
 using algorithm::Role;
-
-// The numbers of all coordinates.
-std::uint32_t width(const Context& context) {
-  std::uint32_t count = context.query.floating ? 5 : 0;
-  for (const Coordinate& coordinate : coordinates(context.robot))
-    count += static_cast<std::uint32_t>(coordinate.parts.size());
-  return count;
-}
-
-BlockIndex make_width(Context& context, Id body) {
-  const double count[] = {static_cast<double>(width(context))};
-  BlockSpec spec = whole(context, "number-of-coordinates", "coordinate-map");
-  spec.represents = body;
-  spec.size = 1;
-  spec.role = Role::kConstant;
-  spec.value = count;
-  return context.make(spec);
-}
 
 BlockIndex make_factor(Context& context, std::string_view slot, std::string_view quantity,
                        Id body) {
@@ -47,8 +30,8 @@ BlockIndex mass_matrix(Context& context, Id body) {
 }
 
 void factorise(Context& context, Id body, std::string_view operation, BlockIndex factor) {
-  context.closure_with_counts(
-      operation, {mass_matrix(context, body), make_width(context, body), factor}, {1, 1, 1}, body);
+  context.closure_with_counts(operation, {mass_matrix(context, body), make_width(context), factor},
+                              {1, 1, 1}, body);
 }
 
 void configure_cholesky(Context& context, const Visit& visit) {
@@ -70,35 +53,21 @@ void compute_decomposition(Context& context, const Visit& visit) {
 }
 
 // A force of every coordinate, one after the other; of those that are driven, as they are driven.
-BlockIndex all_forces(Context& context, std::string_view slot, Id body) {
+BlockIndex all_forces(Context& context, std::string_view slot) {
   const std::string own_slot = "all-" + std::string(slot);
-  const BlockIndex all = context.make({.slot = own_slot,
-                                       .represents = body,
-                                       .quantity = "joint-forces",
-                                       .size = width(context),
-                                       .label = algorithm::kWholeRobot});
-  std::vector<BlockIndex> blocks;
-  for (const Coordinate& coordinate : coordinates(context.robot))
-    for (const std::size_t part : coordinate.parts) {
-      const Id joint = context.robot.joints[part].joint;
-      blocks.push_back(slot == "force" ? context.block(slot, joint)
-                                       : coupled_force(context, slot, part));
-    }
-  const auto count = static_cast<std::uint32_t>(blocks.size());
-  blocks.push_back(all);
-  if (context.query.floating)
-    context.closure_with_counts("join-floating-forces", std::move(blocks), {1, count - 1, 1}, body);
-  else
-    context.closure_with_counts("join-joint-forces", std::move(blocks), {count, 1}, body);
+  const BlockIndex all = context.make(of_all(context, own_slot, "joint-forces"));
+  join_forces(
+      context,
+      [&](std::size_t part) {
+        return slot == "force" ? context.block(slot, context.robot.joints[part].joint)
+                               : coupled_force(context, slot, part);
+      },
+      all);
   return all;
 }
 
-void configure_result(Context& context, const Visit& visit) {
-  context.make({.slot = "all-acceleration",
-                .represents = visit["body"],
-                .quantity = "joint-accelerations",
-                .size = width(context),
-                .label = algorithm::kWholeRobot});
+void configure_result(Context& context, const Visit&) {
+  context.make(of_all(context, "all-acceleration", "joint-accelerations"));
 }
 
 void compute_result(Context& context, const Visit& visit) {
@@ -106,8 +75,8 @@ void compute_result(Context& context, const Visit& visit) {
   const BlockIndex all = context.block("all-acceleration", body);
   context.closure_with_counts(
       "acceleration-from-decomposition",
-      {context.block("mass-matrix-decomposition", body), all_forces(context, "force", body),
-       all_forces(context, "bias-force", body), make_width(context, body), all},
+      {context.block("mass-matrix-decomposition", body), all_forces(context, "force"),
+       all_forces(context, "bias-force"), make_width(context), all},
       {1, 1, 1, 1, 1}, body);
   take_all(context, "acceleration", all);
 }

@@ -230,14 +230,14 @@ bool gives_forces(const MotionDrivers& drivers) {
 }
 
 // What weights, magnitudes and levers a step looks at, beside its own needs.
+}  // namespace
+
 std::vector<std::string> with_weights(std::vector<std::string> needs,
                                       const MotionDrivers& drivers) {
   if (!drivers.constraints.empty()) needs.emplace_back("constraint-magnitude");
   if (drivers.limited != kNoDriver) needs.emplace_back("driver-scale");
   return needs;
 }
-
-}  // namespace
 
 Step constrained_drive_step(const MotionDrivers& drivers) {
   return {.name = "constrained-drive",

@@ -58,7 +58,7 @@ std::array<double, 3> gravity(const graph::View& view, const Robot& robot, const
 // Sinew, and those of the graph: where two give the same, the first one is taken.
 std::vector<Step> available_steps(const MotionDrivers& drivers, std::span<const Step> together,
                                   const StepModels& models, bool coupled) {
-  std::vector<Step> list = hybrid_steps(drivers);
+  std::vector<Step> list = hybrid_steps(drivers, coupled);
   list.insert(list.end(), together.begin(), together.end());
   const std::span<const Step> ours = steps_for(coupled);
   list.insert(list.end(), ours.begin(), ours.end());

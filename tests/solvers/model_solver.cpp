@@ -57,6 +57,9 @@ std::vector<double> ModelSolver::inputs(const TestRobot& robot, const DenseState
     put("acceleration", state.acceleration, j.velocity, j.velocities);
     put("force", force, j.velocity, j.velocities);
   }
+  for (const auto& [input, own] : others_)
+    for (Eigen::Index k = 0; k < own.size(); ++k)
+      numbers[own.size() == 1 ? input : input + "[" + std::to_string(k) + "]"] = own[k];
   std::vector<double> in;
   for (const std::string& name : cli::column_names(program_, evaluator_->interface().inputs))
     in.push_back(numbers.at(name));

@@ -30,6 +30,9 @@ class ModelSolver {
   std::map<std::string, VectorXd> answer(const TestRobot& robot, const DenseState& state,
                                          const VectorXd& force = {});
 
+  // An input that is no number of the state: a wrench, a setpoint.
+  void set(const std::string& input, const VectorXd& numbers) { others_[input] = numbers; }
+
   const program::Program& program() const { return program_; }
 
   // Rows and columns of matrices are in the order of the inputs, depth first; ours are not.
@@ -38,6 +41,7 @@ class ModelSolver {
  private:
   program::Program program_;
   std::unique_ptr<cli::Evaluator> evaluator_;
+  std::map<std::string, VectorXd> others_;
 };
 
 // force.j0, force.j1, … one after the other.

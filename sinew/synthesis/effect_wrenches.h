@@ -1,0 +1,21 @@
+// The wrench with which each effect (effects.h) acts on a body, in the slot "effect-wrench" of the
+// effect and the body's frame: what drivers exert on it, and the unit constraint forces; with what
+// the joints behind the body have handed on already.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sinew/synthesis/effects.h"
+
+namespace sinew::synthesis {
+
+// The two passes of a visitor of bodies, for these effects.
+void configure_effect_wrenches(Context& context, const Visit& visit, std::span<const Effect> list);
+void compute_effect_wrenches(Context& context, const Visit& visit, std::span<const Effect> list);
+
+// What a step needs that takes wrenches and given forces of all groups of drivers inward.
+std::vector<std::string> needs_of_driver_wrenches(const MotionDrivers& drivers);
+
+}  // namespace sinew::synthesis
