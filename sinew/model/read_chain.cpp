@@ -50,22 +50,30 @@ std::optional<std::pair<int, int>> read_attachments(GraphReader& reader, const S
   return std::pair{frames[0], frames[1]};
 }
 
+struct Direction {
+  Vector3 along;
+  Id coordinate = {};  // that states it; null for an axis of the frame
+};
+
 // The direction of `line` seen from `frame`, where the model states it: as one of the frame's axes
 // (also when the vector says so of itself, and starts at the frame's origin), or in coordinates.
-std::optional<Vector3> line_direction(GraphReader& reader, const Structure::Frame& frame, Id line) {
+std::optional<Direction> line_direction(GraphReader& reader, const Structure::Frame& frame,
+                                        Id line) {
   const Ids& ids = reader.ids;
   const Id vectors[3] = {ids.vector_x, ids.vector_y, ids.vector_z};
   const Vector3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const bool starts_here = frame.origin && reader.view.contains(line, ids.start, frame.origin);
   for (int i = 0; i < 3; ++i) {
-    if (reader.view.contains(frame.iri, vectors[i], line)) return axes[i];
-    if (starts_here && reader.view.contains(line, vectors[i], line)) return axes[i];
+    const bool is_axis = reader.view.contains(frame.iri, vectors[i], line) ||
+                         (starts_here && reader.view.contains(line, vectors[i], line));
+    if (is_axis) return Direction{axes[i]};
   }
-  std::optional<Vector3> direction;
+  std::optional<Direction> direction;
   reader.view.match({}, ids.of_direction, line, graph::Dataset::kUnion, [&](const graph::Quad& q) {
     if (!reader.view.contains(q.subject, ids.seen_by, frame.iri)) return true;
     if (!reader.scale(q.subject, dimension::kNone, "the direction")) return true;
-    direction = reader.vector(q.subject, ids.x, ids.y, ids.z);
+    if (const auto along = reader.vector(q.subject, ids.x, ids.y, ids.z))
+      direction = Direction{*along, q.subject};
     return !direction;
   });
   return direction;
@@ -79,7 +87,7 @@ std::optional<Vector3> read_axis(GraphReader& reader, const Structure& structure
   const auto axis = reader.one(joint, ids.common_axis, "the joint's axis");
   if (!axis) return std::nullopt;
   const std::vector<Id> lines = reader.objects(*axis, ids.lines);
-  std::optional<Vector3> directions[2];
+  std::optional<Direction> directions[2];
   const int frames[2] = {facts.parent, facts.child};
   for (int i = 0; i < 2; ++i) {
     const Structure::Frame& frame = structure.frames[frames[i]];
@@ -95,24 +103,24 @@ std::optional<Vector3> read_axis(GraphReader& reader, const Structure& structure
       return std::nullopt;
     }
   }
-  const Vector3 difference = *directions[0] - *directions[1];
-  const double length = std::sqrt(dot(*directions[0], *directions[0]));
-  if (dot(difference, difference) > kAxisTolerance * kAxisTolerance) {
+  const auto length = [](const Vector3& v) { return std::sqrt(dot(v, v)); };
+  const auto refuse = [&](const Direction& direction, std::string what) {
+    const Id node = direction.coordinate ? direction.coordinate : *axis;
+    reader.error(node, direction.coordinate ? ids.x : ids.lines,
+                 fmt::format("the axis of <{}> {}", reader.text(joint), what),
+                 "give a unit vector: the direction about or along which the joint moves");
+    return std::nullopt;
+  };
+  for (const auto& direction : directions) {
+    const double size = length(direction->along);
+    if (size == 0) return refuse(*direction, "has no length");
+    if (std::abs(size - 1) > 1e-3) return refuse(*direction, fmt::format("has length {}", size));
+  }
+  if (length(directions[0]->along - directions[1]->along) > kAxisTolerance) {
     reader.error(*axis, ids.lines,
                  "the axis is another direction in one attachment than in the other, so that joint "
                  "position zero is not defined",
                  "use the same axis of both attachments");
-    return std::nullopt;
-  }
-  if (length == 0) {
-    reader.error(*axis, ids.lines,
-                 fmt::format("the axis of <{}> has no length", reader.text(joint)),
-                 "give a unit vector: the direction about or along which the joint moves");
-    return std::nullopt;
-  }
-  if (std::abs(length - 1) > 1e-3) {
-    reader.error(*axis, ids.lines, fmt::format("the axis has length {}", length),
-                 "give a unit vector");
     return std::nullopt;
   }
   const Id polarity = reader.view.object(joint, ids.polarity);
@@ -123,7 +131,8 @@ std::optional<Vector3> read_axis(GraphReader& reader, const Structure& structure
   }
   const double sign = polarity == ids.negative ? -1 : 1;
   // An axis of a frame stays exactly that; others are made unit vectors.
-  return (length == 1 ? sign : sign / length) * *directions[0];
+  const double size = length(directions[0]->along);
+  return (size == 1 ? sign : sign / size) * directions[0]->along;
 }
 
 namespace {

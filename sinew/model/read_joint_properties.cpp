@@ -40,12 +40,15 @@ class Properties {
       if (!of) continue;
       if (const auto found = joints_.find(*of); found != joints_.end()) {
         read(node, *found->second);
-      } else if (!motions_.contains(*of)) {
+      } else if (!motions_.contains(*of) && !is_faulty(*of)) {
         reader_.error(node, ids_.of_joint, fmt::format("<{}> is no joint", reader_.text(*of)),
                       "name a joint of these models");
       }
     }
   }
+
+  // A joint of the model with a fault of its own, which has been reported.
+  bool is_faulty(Id joint) const { return reader_.is_a(joint, ids_.joint); }
 
   void scaled(Id node, Id property, const data::Dimension& dimension, std::string_view what,
               double& to) {
@@ -69,6 +72,7 @@ class Properties {
       return Limited{&motion->second->limits, motion->second->kind == JointKind::kRevolute};
     const auto found = joints_.find(*of);
     if (found == joints_.end()) {
+      if (is_faulty(*of)) return std::nullopt;
       reader_.error(node, ids_.of_joint, fmt::format("<{}> is no joint", reader_.text(*of)),
                     "name a joint of these models");
       return std::nullopt;

@@ -15,6 +15,9 @@ using Element = tinyxml2::XMLElement;
 
 constexpr std::string_view kSpace = " \t\r\n";
 
+// Of a joint's axis, which is made a unit vector: its square must be a number.
+constexpr double kShortestAxis = 1e-100, kLongestAxis = 1e100;
+
 // Elements that other tools add to a robot, and that say nothing about its mechanics.
 constexpr std::string_view kIgnoredInRobot[] = {"material", "transmission", "gazebo",
                                                 "sensor",   "ros2_control", "mujoco"};
@@ -33,8 +36,12 @@ class Reader {
     tinyxml2::XMLDocument xml;
     xml.Parse(text.data(), text.size());
     if (xml.Error()) {
+      const tinyxml2::XMLError fault = xml.ErrorID();
       error(xml.ErrorLineNum(), "", fmt::format("no well-formed XML: {}", xml.ErrorName()),
-            "close every element, and quote every attribute");
+            fault == tinyxml2::XML_ERROR_EMPTY_DOCUMENT ? "give a URDF file, which is not empty"
+            : fault == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED
+                ? "nest elements less: a URDF needs five levels"
+                : "close every element, and quote every attribute");
       return std::move(document_);
     }
     const Element* robot = xml.RootElement();
@@ -156,10 +163,10 @@ class Reader {
     parse(element, name, text, {&value});
     return value;
   }
-  void three(const Element* element, const char* name, Numbers3& to) {
-    if (const char* text = element->Attribute(name)) {
-      parse(element, name, text, {&to[0], &to[1], &to[2]});
-    }
+  // False where the attribute is there and faulty.
+  bool three(const Element* element, const char* name, Numbers3& to) {
+    const char* text = element->Attribute(name);
+    return text == nullptr || parse(element, name, text, {&to[0], &to[1], &to[2]});
   }
 
   Origin read_origin(const Element* element) {
@@ -290,6 +297,7 @@ class Reader {
     if (type) joint.type = read_type(element, *type);
     const Element *origin = nullptr, *parent = nullptr, *child = nullptr, *axis = nullptr,
                   *limit = nullptr, *dynamics = nullptr, *mimic = nullptr;
+    bool knows_axis = true;
     for (const Element* e = element->FirstChildElement(); e; e = e->NextSiblingElement()) {
       const std::string_view name = e->Name();
       if (name == "origin") {
@@ -299,7 +307,7 @@ class Reader {
       } else if (name == "child") {
         if (once(e, child)) joint.child = attribute(e, "link").value_or("");
       } else if (name == "axis") {
-        if (once(e, axis)) three(e, "xyz", joint.axis);
+        if (once(e, axis)) knows_axis = three(e, "xyz", joint.axis);
       } else if (name == "limit") {
         if (!once(e, limit)) continue;
         joint.limit = Limit{optional(e, "lower"), optional(e, "upper"), optional(e, "effort"),
@@ -317,7 +325,8 @@ class Reader {
     }
     if (!parent) error(element, "the joint has no <parent>", "write <parent link=\"…\"/>");
     if (!child) error(element, "the joint has no <child>", "write <child link=\"…\"/>");
-    check_motion(element, axis, joint);
+    if (knows_axis) check_axis(axis ? axis : element, joint);
+    check_motion(element, joint);
     here_.clear();
     return joint;
   }
@@ -334,7 +343,15 @@ class Reader {
     return JointType::kFixed;
   }
 
-  void check_motion(const Element* element, const Element* axis, const Joint& joint) {
+  void check_axis(const Element* element, const Joint& joint) {
+    if (joint.type == JointType::kFixed || joint.type == JointType::kFloating) return;
+    const double length = std::hypot(joint.axis[0], joint.axis[1], joint.axis[2]);
+    if (length == 0) error(element, "the joint's axis is zero", "give it a direction");
+    if (length > kLongestAxis || (length > 0 && length < kShortestAxis))
+      error(element, fmt::format("the joint's axis has length {}", length), "give a unit vector");
+  }
+
+  void check_motion(const Element* element, const Joint& joint) {
     if (joint.type == JointType::kFixed) return;
     const bool several = joint.type == JointType::kPlanar || joint.type == JointType::kFloating;
     if (several && joint.mimic) {
@@ -345,10 +362,9 @@ class Reader {
       warning(element, "the limits and friction of a planar or floating joint are left out",
               "URDF does not say of which of its degrees of freedom they are");
     }
-    if (joint.type == JointType::kFloating) return;
-    const auto& a = joint.axis;
-    if (a[0] * a[0] + a[1] * a[1] + a[2] * a[2] == 0) {
-      error(axis ? axis : element, "the joint's axis is zero", "give it a direction");
+    if (joint.mimic && joint.mimic->multiplier == 0) {
+      warning(element, "it mimics another joint with multiplier 0, so it never moves",
+              "make it a fixed joint, or state the multiplier");
     }
     const bool needs_limit =
         joint.type == JointType::kRevolute || joint.type == JointType::kPrismatic;

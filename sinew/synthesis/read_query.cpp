@@ -112,7 +112,10 @@ class Reader {
 
   // An element: one of the words that stand for several or for a frame, a name, or an IRI.
   std::string element(Id subject, std::string_view property) {
-    return element_of(text(subject, property));
+    const std::string name = element_of(text(subject, property));
+    if (name.empty() && !objects(subject, property).empty())
+      error(subject, property, "has nothing in", "name an element, or leave it out");
+    return name;
   }
 
   static std::string element_of(std::string name) {
@@ -136,11 +139,15 @@ class Reader {
             places_ != nullptr ? places_->find(node, word(property)) : Place{}};
   }
 
+  // Faults of nodes without a name are the query's.
   void error(Id node, std::string_view property, std::string_view what, std::string remedy) {
+    const Id named = terms_.is_blank(node) && query_ ? query_ : node;
     report_.error(places_ ? places_->find(node, word(property)) : Place{},
-                  std::string(terms_.text(node)), fmt::format("{} {}", what, property),
-                  std::move(remedy));
+                  terms_.is_blank(named) ? std::string() : std::string(terms_.text(named)),
+                  fmt::format("{} {}", what, property), std::move(remedy));
   }
+
+  void reads(Id query) { query_ = query; }
 
   const graph::Terms& terms() const { return terms_; }
 
@@ -151,6 +158,7 @@ class Reader {
   const graph::Terms& terms_;
   const graph::Places* places_;
   Report& report_;
+  Id query_;
 };
 
 void read_gravity(Reader& reader, Id node, Query& query) {
@@ -259,6 +267,7 @@ std::string_view embedded(std::string_view file) {
 
 Query read_query(const graph::View& view, Id node, const graph::Places* places, Report& report) {
   Reader reader(view, places, report);
+  reader.reads(node);
   Query query;
   query.iri = view.terms().text(node);
   if (places != nullptr) query.place = places->find(node, reader.word("asks"));

@@ -168,7 +168,7 @@ std::vector<Fault> faults() {
            ":l2 a coord:DirectionCoordinate ; <https://w3id.org/sinew/geometry#of-direction> :l ; "
            "coord:as-seen-by :b-root ; qudt:unit unit:UNITLESS ; coord:x 0 ; coord:y 0 ; coord:z 0 "
            ".\n",
-       "r#x", "the axis of <https://example.org/r#j> has no length"},
+       "r#l1", "the axis of <https://example.org/r#j> has no length"},
   };
 }
 
