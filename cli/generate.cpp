@@ -12,7 +12,8 @@ namespace sinew::cli {
 
 int run_generate(Arguments arguments) {
   CLI::App app(
-      "Write the program that answers a query as source code: NAME.h, NAME.c and NAME.json, which "
+      "Write the program that answers a query as source code: NAME.h, NAME.c (or .cpp, .cu) and "
+      "NAME.json, which "
       "names every input and output.",
       "sinew generate");
   ModelOptions models_options;
@@ -25,8 +26,9 @@ int run_generate(Arguments arguments) {
   add_derivative_option(app, query);
   app.add_option("--name", name, "Name of the function and the files (default: the query's)");
   app.add_option("--target", target,
-                 "c; cuda: one thread a sample; or program: the program itself as JSON")
-      ->check(CLI::IsMember({"c", "cuda", "program"}))
+                 "c; cpp: C++ with the numbers by name (NAME.hpp); cuda: one thread a sample; or "
+                 "program: the program itself as JSON")
+      ->check(CLI::IsMember({"c", "cpp", "cuda", "program"}))
       ->capture_default_str();
   app.add_option("--style", style,
                  "flat: optimised straight-line code; readable: a call for each closure")
@@ -66,7 +68,9 @@ int run_generate(Arguments arguments) {
   options.style = style == "flat" ? backend::Style::kFlat : backend::Style::kReadable;
   options.source = describe(models_options, query);
   options.scalar = scalar == "float" ? backend::Scalar::kFloat : backend::Scalar::kDouble;
-  options.language = target == "cuda" ? backend::Language::kCuda : backend::Language::kC;
+  options.language = target == "cuda"  ? backend::Language::kCuda
+                     : target == "cpp" ? backend::Language::kCpp
+                                       : backend::Language::kC;
   options.trigonometry =
       trigonometry == "sleef" ? backend::Trigonometry::kSleef : backend::Trigonometry::kOwn;
   options.partial = partial;

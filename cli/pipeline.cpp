@@ -144,6 +144,9 @@ void normalise(Models& models, const synthesis::Query& query) {
   options.tips = query.tips;
   if (query.gravity)
     options.gravity = model::Vector3{(*query.gravity)[0], (*query.gravity)[1], (*query.gravity)[2]};
+  options.gravity_varies = std::ranges::any_of(query.given, [](const synthesis::Given& given) {
+    return given.quantity == "gravity" && given.varies;
+  });
   Report report;
   const model::Tree tree = model::normalise(models.store, models.places, options, report);
   print_notes(report);

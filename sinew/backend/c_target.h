@@ -33,6 +33,7 @@ enum class Trigonometry {
 
 enum class Language {
   kC,
+  kCpp,   // the same functions in NAME.cpp, and NAME.hpp with their numbers by name
   kCuda,  // flat style only: NAME.h, NAME.cu and NAME.json
 };
 
@@ -58,7 +59,7 @@ struct SourceFile {
 };
 
 struct GeneratedCode {
-  std::vector<SourceFile> files;       // NAME.h, NAME.c or NAME.cu, NAME.json
+  std::vector<SourceFile> files;       // NAME.h; NAME.c, .cpp or .cu; NAME.json; C++: NAME.hpp
   program::OperationCount operations;  // of one evaluation of the flat style
   program::OperationCount update;      // of one call of NAME_update
   // Where limbs are side by side: operations of a single call, one on a vector counted once.

@@ -56,6 +56,10 @@ Json operation_counts(const program::OperationCount& n) {
           {"sqrt", n.sqrt}, {"sincos", n.sincos},     {"select", n.select}};
 }
 
+const char* language_name(Language language) {
+  return language == Language::kCuda ? "cuda" : language == Language::kCpp ? "cpp" : "c";
+}
+
 }  // namespace
 
 std::string sidecar(const program::ScalarProgram& scalar, const program::Interface& interface,
@@ -90,7 +94,7 @@ std::string sidecar(const program::ScalarProgram& scalar, const program::Interfa
   Json document = {{"sinew-generated", 1},
                    {"name", options.name},
                    {"style", options.style == Style::kFlat ? "flat" : "readable"},
-                   {"language", options.language == Language::kCuda ? "cuda" : "c"},
+                   {"language", language_name(options.language)},
                    {"scalar", options.scalar == Scalar::kFloat ? "float" : "double"},
                    {"trigonometry", options.trigonometry == Trigonometry::kSleef ? "sleef" : "own"},
                    {"source", options.source},

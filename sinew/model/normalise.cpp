@@ -287,7 +287,7 @@ void add_gravity(Work& work) {
     // At rest, the acceleration of the origin is a_P + alpha x (O - P).
     tree.base_acceleration = {alpha, R * stated.value.linear - cross(alpha, *p)};
   }
-  if (!used) {
+  if (!used && !work.options.gravity_varies) {
     tree.notes.push_back(
         "no gravity: the model states no acceleration of its base and none was given, so it is "
         "zero");

@@ -27,6 +27,8 @@ struct NormaliseOptions {
   std::vector<std::string> tips;
   // Seen from the base [m/s^2]; overrides the model's.
   std::optional<Vector3> gravity;
+  // Gravity is an input of the program: that none is stated is not worth a note.
+  bool gravity_varies = false;
   // Turns and slides joint frames about and along their axes, so that constants become 0 or 1.
   // Frames of the model stay where they are; only frames that nobody named move.
   bool choose_frames = true;
