@@ -5,12 +5,14 @@
 //   SP  the objects of a subject and predicate     S  everything of a subject
 //   PO  the subjects of a predicate and object     P  everything of a predicate
 //   OS  the predicates between object and subject  O  everything of an object
-// The head of each list is a Posting, found by hash for a pair of terms and by array for one term.
+// The lists of one term are found by array; the head of a pair's list is a Posting, found by hash.
 // Most lists of pairs have one triple: then the hash table leads to the triple itself. What is
 // between an object and a subject is looked for in the shorter of their own lists; only triples
-// whose subject and object both are crowded, which few are, are in a list OS. That a triple is held
-// by a graph is a Membership, with versions of its own; a triple is visible while at least one of
-// its memberships is.
+// whose subject and object both are crowded, which few are, are in a list OS.
+//
+// A triple itself says which graph it was added to first, and is linked with what else is in that
+// graph; its versions are those in which that graph holds it. Each further graph that holds it is a
+// Membership, with versions of its own. A triple is visible while at least one graph holds it.
 //
 // Concurrency: one writer, any number of readers, no locks. Records never move and are reached
 // through release/acquire links. Versions grow along every list, so a reader of version v stops at
@@ -32,37 +34,44 @@ inline constexpr Version kNever = UINT64_MAX;
 
 enum List : std::uint32_t { kListSP, kListPO, kListOS, kListS, kListP, kListO, kLists };
 
-// Triple::graph when more than one graph holds, or held, the triple.
-inline constexpr std::uint32_t kSeveralGraphs = UINT32_MAX;
+// In a graph's list: what is set in the number of a Membership, and not in that of a triple.
+inline constexpr std::uint32_t kFurther = 0x80000000u;
 
 struct alignas(64) Triple {
-  Version added, removed;
+  Version added, removed;  // to and from `graph`
   std::uint32_t subject, predicate, object;
-  std::uint32_t graph;         // the only graph that holds it, or kSeveralGraphs
-  std::uint32_t next[kLists];  // 0 ends a list
-  std::uint32_t first_membership;
-  std::uint32_t last_membership;  // writer only
+  std::uint32_t graph;          // that it was added to first
+  std::uint32_t next[kLists];   // 0 ends a list
+  std::uint32_t next_in_graph;  // a triple or a Membership of the same graph
+  std::uint32_t memberships;    // the first of those in further graphs
 };
 static_assert(sizeof(Triple) == 64);
 
+// That a triple is in a further graph.
 struct Membership {
   Version added, removed;
   std::uint32_t triple, graph;
   std::uint32_t next_of_triple;  // the same triple in another graph
-  std::uint32_t next_in_graph;
+  std::uint32_t next_in_graph;   // as Triple::next_in_graph
+  std::uint32_t last_of_triple;  // writer only; of a triple's first
+  std::uint32_t unused;
 };
-static_assert(sizeof(Membership) == 32);
+static_assert(sizeof(Membership) == 40);
 
 // A term whose list was once longer than this is crowded.
 inline constexpr std::uint32_t kUncrowded = 16;
 
-struct Posting {
-  // The key of a pair. Of one subject's or object's list: whether it is crowded, and 0.
-  std::uint32_t first, second;
+struct Chain {
   std::uint32_t head;
   std::uint32_t tail;      // writer only
   std::uint32_t count;     // records in the list, also those that were removed meanwhile
   std::uint32_t patience;  // writer only: removals until the list is swept
+};
+
+// The list of a pair of terms, or of a predicate.
+struct Posting {
+  std::uint32_t first, second;  // the pair; 0 of a predicate's
+  Chain chain;
   // Of a predicate's list: how many SP and PO lists with it are not empty (kSubjects, kObjects). Of
   // an SP list: a filter of its objects, from which nothing is taken away again (ObjectBit).
   std::uint32_t summary[2];
@@ -79,17 +88,21 @@ struct ObjectBit {
   std::uint32_t word, mask;
 };
 
-// The lists of one term, 0 where it has none.
+// The lists of one term. What an object needs comes first, so that it mostly is one cache line:
+// objects are what jumps about where triples are added subject by subject.
 struct Node {
-  std::uint32_t as_subject, as_predicate, as_object;  // in `postings`
-  std::uint32_t as_graph;                             // in `graphs`
+  Chain as_object;
+  std::uint32_t object_is_crowded, subject_is_crowded;
+  std::uint32_t as_predicate;  // in `postings`; 0 where it has none
+  std::uint32_t as_graph;      // in `graphs`
+  Chain as_subject;
 };
+static_assert(sizeof(Node) == 48);
 
 struct Graph {
+  Chain members;  // linked by next_in_graph
   std::uint32_t name;
-  std::uint32_t members;  // in `postings`, linked by Membership::next_in_graph
-  std::uint32_t marks;    // the newest of its GraphMarks
-  std::uint32_t unused;
+  std::uint32_t marks;  // the newest of its GraphMarks
 };
 
 // create_graph: the graph exists in [added, removed) even while it is empty.
@@ -120,7 +133,7 @@ struct Records {
   struct Run {
     std::uint32_t head = 0, count = 0;
   };
-  static Run run_of(const Posting& posting) { return {load(posting.head), load(posting.count)}; }
+  static Run run_of(const Chain& chain) { return {load(chain.head), load(chain.count)}; }
   struct Pair {
     std::uint32_t first, second;
     friend bool operator==(Pair, Pair) = default;
@@ -158,29 +171,33 @@ struct Records {
   }
   Run run_of(SlotTable::Slot found) const {
     if (!found) return {};
-    return found.marked() ? run_of(postings[found.number()]) : Run{found.number(), 1};
+    return found.marked() ? run_of(postings[found.number()].chain) : Run{found.number(), 1};
   }
   Run pair(List list, std::uint32_t first, std::uint32_t second, Version version) const {
     return run_of(find_pair(list, {first, second}, version));
   }
-  const Posting* single(List list, std::uint32_t term) const {
+  // The list of one term as kListS or kListO.
+  static const Chain& chain(const Node& node, List list) {
+    return list == kListS ? node.as_subject : node.as_object;
+  }
+  static Chain& chain(Node& node, List list) {
+    return list == kListS ? node.as_subject : node.as_object;
+  }
+  const Posting* of_predicate(std::uint32_t term) const {
     const Node* node = nodes.find(term);
-    if (!node) return nullptr;
-    const std::uint32_t number = load(list == kListS   ? node->as_subject
-                                      : list == kListP ? node->as_predicate
-                                                       : node->as_object);
+    const std::uint32_t number = node ? load(node->as_predicate) : 0;
     return number ? &postings[number] : nullptr;
   }
-  static bool crowded(const Posting& posting) { return load(posting.first) != 0; }
   // What contains all that is between the two, and perhaps more. Sets `list`.
   Run between(std::uint32_t subject, std::uint32_t object, Version version, List& list) const {
-    const Posting* const of_subject = single(list = kListS, subject);
-    const Posting* const of_object = single(kListO, object);
+    list = kListS;
+    const Node* const of_subject = nodes.find(subject);
+    const Node* const of_object = nodes.find(object);
     if (!of_subject || !of_object) return {};
-    if (crowded(*of_subject) && crowded(*of_object)) {
+    if (load(of_subject->subject_is_crowded) && load(of_object->object_is_crowded)) {
       return pair(list = kListOS, object, subject, version);
     }
-    const Run from = run_of(*of_subject), to = run_of(*of_object);
+    const Run from = run_of(of_subject->as_subject), to = run_of(of_object->as_object);
     if (from.count <= to.count) return from;
     list = kListO;
     return to;
@@ -192,9 +209,14 @@ struct Records {
     if (subject && predicate) return pair(list = kListSP, subject, predicate, version);
     if (predicate && object) return pair(list = kListPO, predicate, object, version);
     if (object && subject) return between(subject, object, version, list);
-    list = subject ? kListS : predicate ? kListP : kListO;
-    const Posting* posting = single(list, subject ? subject : predicate ? predicate : object);
-    return posting ? run_of(*posting) : Run{};
+    if (predicate) {
+      list = kListP;
+      const Posting* const all = of_predicate(predicate);
+      return all ? run_of(all->chain) : Run{};
+    }
+    list = subject ? kListS : kListO;
+    const Node* const node = nodes.find(subject ? subject : object);
+    return node ? run_of(chain(*node, list)) : Run{};
   }
   const Graph* graph(std::uint32_t name) const {
     const Node* node = nodes.find(name);
@@ -204,21 +226,32 @@ struct Records {
 
   // Precondition: added <= version.
   template <typename Record>
-  static bool still_there(const Record& record, Version version) {
+  static bool still_in_graph(const Record& record, Version version) {
     return version < load(record.removed);
+  }
+  // Whether any graph holds the triple. Precondition: added <= version.
+  bool still_there(const Triple& triple, Version version) const {
+    return still_in_graph(triple, version) ||
+           !for_further(triple, version, [](const Membership&) { return false; });
+  }
+  // Calls visit(const Membership&) for those of the triple that are visible, until it returns
+  // false. Returns false if it was stopped.
+  template <typename Visit>
+  bool for_further(const Triple& triple, Version version, Visit&& visit) const {
+    for (std::uint32_t at = load(triple.memberships); at != 0;) {
+      const Membership& membership = memberships[at];
+      if (load(membership.added) > version) break;
+      if (still_in_graph(membership, version) && !visit(membership)) return false;
+      at = load(membership.next_of_triple);
+    }
+    return true;
   }
 
   // Whether the graph holds the triple. Precondition: the triple is visible at this version.
   bool holds(const Triple& triple, std::uint32_t graph, Version version) const {
-    const std::uint32_t only = load(triple.graph);
-    if (only != kSeveralGraphs) return only == graph;
-    for (std::uint32_t at = load(triple.first_membership); at != 0;) {
-      const Membership& membership = memberships[at];
-      if (load(membership.added) > version) return false;
-      if (membership.graph == graph && still_there(membership, version)) return true;
-      at = load(membership.next_of_triple);
-    }
-    return false;
+    if (triple.graph == graph && still_in_graph(triple, version)) return true;
+    return !for_further(triple, version,
+                        [graph](const Membership& further) { return further.graph != graph; });
   }
 
   // The visible triple, or 0. The list of SP is nearly always short; where it is not, the shortest

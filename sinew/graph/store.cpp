@@ -77,15 +77,15 @@ std::shared_ptr<Core> copy_of(const StoreData& data, std::shared_ptr<Terms> term
   Writer& to = core->writer;
   for (std::uint32_t at = 1; at <= from.triple_count; ++at) {
     const Triple& triple = from.triples[at];
-    if (triple.added > version || triple.removed <= version) continue;
-    for (std::uint32_t held = triple.first_membership; held != 0;) {
-      const Membership& membership = from.memberships[held];
-      if (membership.added <= version && membership.removed > version) {
-        to.add({{triple.subject}, {triple.predicate}, {triple.object}, {membership.graph}},
-               version);
-      }
-      held = membership.next_of_triple;
-    }
+    if (triple.added > version) continue;
+    const auto copy_to = [&](std::uint32_t graph) {
+      to.add({{triple.subject}, {triple.predicate}, {triple.object}, {graph}}, version);
+    };
+    if (triple.removed > version) copy_to(triple.graph);
+    from.for_further(triple, version, [&](const Membership& further) {
+      copy_to(further.graph);
+      return true;
+    });
   }
   for (std::uint32_t at = 1; at <= from.graph_count; ++at) {
     const Graph& graph = from.graphs[at];
@@ -146,6 +146,7 @@ Transaction::Transaction(StoreData& data) : data_(&data) {
   data.writing.acquire();
   data.writer_thread.store(self);
   version_ = data.present.committed + 1;
+  data.core->writer.start();
 }
 
 Transaction::Transaction(Transaction&& other) noexcept
@@ -207,7 +208,7 @@ View Transaction::view() const {
   return View(in.present.records, in.terms.get(), version_, View::kUnfinished);
 }
 
-Transaction::Mark Transaction::mark() const { return data().core->writer.changes(); }
+Transaction::Mark Transaction::mark() const { return data().core->writer.mark(); }
 void Transaction::undo_to(Mark mark) { data().core->writer.undo_to(mark); }
 
 void Transaction::commit() {
@@ -231,8 +232,8 @@ void Transaction::commit() {
 
 Store::Store(StoreLimits limits) : data_(std::make_unique<StoreData>()) {
   data_->terms = std::make_shared<Terms>(limits.terms);
-  data_->quad_limit = limits.quads;
-  install(*data_, std::make_shared<Core>(data_->terms, limits.quads), 1);
+  data_->quad_limit = std::min(limits.quads, kMaxQuads);
+  install(*data_, std::make_shared<Core>(data_->terms, data_->quad_limit), 1);
 }
 
 Store::Store(std::unique_ptr<StoreData> data) : data_(std::move(data)) {}
@@ -253,9 +254,11 @@ Snapshot Store::snapshot() const {
 Transaction Store::begin() {
   Transaction transaction(*data_);
   const Writer& writer = data_->core->writer;
-  const std::uint32_t alive = writer.records.membership_count - writer.dead_records();
+  const Records& records = writer.records;
+  const std::uint32_t all = records.triple_count + records.membership_count;
+  const std::uint32_t alive = all - std::min(all, writer.dead_records());
   const std::uint32_t bearable = std::min(std::max(kWorthCompacting, alive), data_->quad_limit / 4);
-  const bool full = writer.records.membership_count == data_->quad_limit;
+  const bool full = std::max(records.triple_count, records.membership_count) == data_->quad_limit;
   if ((writer.dead_records() > bearable || (full && writer.dead_records() > 0)) &&
       !MatchScope::matching()) {
     const Version committed = data_->present.committed;

@@ -19,8 +19,8 @@
 // (some 50 ns a triple), and snapshots that are still alive keep the old copy for as long as they
 // live.
 //
-// Limits: 2^32 - 2 triples and graph memberships, removed ones included until the next copy; Error
-// beyond.
+// Limits: 2^31 - 2 triples, and as many times that a triple is in a graph beyond its first; removed
+// ones included until the next copy. Error beyond.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,7 @@ namespace sinew::graph {
 struct Core;
 struct StoreData;
 
-inline constexpr std::uint32_t kMaxQuads = UINT32_MAX - 1;
+inline constexpr std::uint32_t kMaxQuads = INT32_MAX - 1;
 // Fewer dead records than this are never worth a copy.
 inline constexpr std::uint32_t kWorthCompacting = 4096;
 
@@ -82,6 +82,8 @@ class Transaction {
   View view() const;  // sees this transaction's own changes; valid until the transaction ends
   using Mark = std::size_t;
   Mark mark() const;
+  // Takes as long as what is taken back took. Where there was no mark before it, lists that it is
+  // in may be walked as well, of at most some hundred triples for each that is taken back.
   void undo_to(Mark mark);
   // After it the transaction is over: no more changes.
   void commit();

@@ -51,12 +51,12 @@ std::size_t View::estimate(Id subject, Id predicate, Id object) const {
 }
 
 std::size_t View::distinct_subjects(Id predicate) const {
-  const Posting* posting = records().single(kListP, predicate.value);
+  const Posting* posting = records().of_predicate(predicate.value);
   return posting ? load(posting->summary[kSubjects]) : 0;
 }
 
 std::size_t View::distinct_objects(Id predicate) const {
-  const Posting* posting = records().single(kListP, predicate.value);
+  const Posting* posting = records().of_predicate(predicate.value);
   return posting ? load(posting->summary[kObjects]) : 0;
 }
 
@@ -75,7 +75,7 @@ bool View::has_graph(Id graph) const {
 bool View::named(const Records& in, const Graph& graph, Version version) {
   for (std::uint32_t at = load(graph.marks); at != 0; at = load(in.marks[at].next)) {
     const GraphMark& mark = in.marks[at];
-    if (load(mark.added) <= version && Records::still_there(mark, version)) return true;
+    if (load(mark.added) <= version && Records::still_in_graph(mark, version)) return true;
   }
   return !visit_members(in, graph, version, [](const Triple&) { return false; });
 }

@@ -162,12 +162,12 @@ class Steps {
         records_.pairs[list].find(hash_pair(first.value, second.value), is_key);
     if (!found) return true;
     if (!found.marked()) {
-      return !Records::still_there(*triple, version_) || visit(Id{take(*triple)});
+      return !records_.still_there(*triple, version_) || visit(Id{take(*triple)});
     }
-    for (std::uint32_t at = load(several->head); at != 0;) {
+    for (std::uint32_t at = load(several->chain.head); at != 0;) {
       triple = &records_.triples[at];
       if (load(triple->added) > version_) break;
-      if (Records::still_there(*triple, version_) && !visit(Id{take(*triple)})) return false;
+      if (records_.still_there(*triple, version_) && !visit(Id{take(*triple)})) return false;
       at = load(triple->next[list]);
     }
     return true;
@@ -194,7 +194,7 @@ bool View::visit_triples(Id subject, Id predicate, Id object, Visit&& visit) con
     for (std::uint32_t at = 1; at <= end; ++at) {
       const Triple& triple = in.triples[at];
       if (load(triple.added) > at_version) break;
-      if (!Records::still_there(triple, at_version)) continue;
+      if (!in.still_there(triple, at_version)) continue;
       if (!visit(triple)) return false;
     }
     return true;
@@ -207,7 +207,7 @@ bool View::visit_triples(Id subject, Id predicate, Id object, Visit&& visit) con
     if (load(triple.added) > at_version) break;
     const bool matches =
         !between || (triple.subject == subject.value && triple.object == object.value);
-    if (matches && Records::still_there(triple, at_version) && !visit(triple)) return false;
+    if (matches && in.still_there(triple, at_version) && !visit(triple)) return false;
     at = load(triple.next[list]);
   }
   return true;
@@ -215,13 +215,20 @@ bool View::visit_triples(Id subject, Id predicate, Id object, Visit&& visit) con
 
 template <typename Visit>
 bool View::visit_members(const Records& in, const Graph& graph, Version version, Visit&& visit) {
-  for (std::uint32_t at = load(in.postings[graph.members].head); at != 0;) {
-    const Membership& membership = in.memberships[at];
-    if (load(membership.added) > version) break;
-    if (Records::still_there(membership, version) && !visit(in.triples[membership.triple])) {
-      return false;
+  for (std::uint32_t at = load(graph.members.head); at != 0;) {
+    if (at & kFurther) {
+      const Membership& membership = in.memberships[at & ~kFurther];
+      if (load(membership.added) > version) break;
+      if (Records::still_in_graph(membership, version) && !visit(in.triples[membership.triple])) {
+        return false;
+      }
+      at = load(membership.next_in_graph);
+    } else {
+      const Triple& triple = in.triples[at];
+      if (load(triple.added) > version) break;
+      if (Records::still_in_graph(triple, version) && !visit(triple)) return false;
+      at = load(triple.next_in_graph);
     }
-    at = load(membership.next_in_graph);
   }
   return true;
 }
@@ -240,7 +247,7 @@ bool View::match_in(Id subject, Id predicate, Id object, Id graph, Visit&& visit
   const Graph* holder = in.graph(graph.value);
   if (!holder) return true;
   // Through the graph's own list where that is shorter.
-  const std::size_t members = load(in.postings[holder->members].count);
+  const std::size_t members = load(holder->members.count);
   if (estimate(subject, predicate, object) > members || !(subject || predicate || object)) {
     const MatchScope scope;
     return visit_members(in, *holder, at_version, [&](const Triple& triple) {
@@ -260,18 +267,13 @@ bool View::match_named(Id subject, Id predicate, Id object, Visit&& visit) const
   const Records& in = records();
   const Version at_version = version();
   return visit_triples(subject, predicate, object, [&](const Triple& triple) {
-    const std::uint32_t only = load(triple.graph);
-    if (only != kSeveralGraphs) return only == 0 || visit(quad(triple, Id{only}));
-    for (std::uint32_t at = load(triple.first_membership); at != 0;) {
-      const Membership& membership = in.memberships[at];
-      if (load(membership.added) > at_version) break;
-      if (membership.graph != 0 && Records::still_there(membership, at_version) &&
-          !visit(quad(triple, Id{membership.graph}))) {
-        return false;
-      }
-      at = load(membership.next_of_triple);
+    if (triple.graph != 0 && Records::still_in_graph(triple, at_version) &&
+        !visit(quad(triple, Id{triple.graph}))) {
+      return false;
     }
-    return true;
+    return in.for_further(triple, at_version, [&](const Membership& further) {
+      return further.graph == 0 || visit(quad(triple, Id{further.graph}));
+    });
   });
 }
 

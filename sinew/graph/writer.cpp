@@ -10,26 +10,18 @@ Writer::Writer(std::uint32_t limit) : limit_(limit) {}
 
 // ---- where things are appended ----
 
-namespace {
-
-std::uint32_t& posting_number(Node& node, List list) {
-  return list == kListS ? node.as_subject : list == kListP ? node.as_predicate : node.as_object;
-}
-
-}  // namespace
-
 // Postings are never given back, and a reader comes to one only after it was published.
 std::uint32_t Writer::new_posting(std::uint32_t first, std::uint32_t second) {
   Posting& made = records.postings.reserve(++records.posting_count);
   made = Posting{};
   made.first = first;
   made.second = second;
-  made.patience = kFirstPatience;
+  made.chain.patience = kFirstPatience;
   return records.posting_count;
 }
 
-inline Posting& Writer::single_posting(List list, std::uint32_t term) {
-  std::uint32_t& number = posting_number(records.nodes.reserve(term), list);
+Posting& Writer::of_predicate(std::uint32_t term) {
+  std::uint32_t& number = records.nodes.reserve(term).as_predicate;
   if (number == 0) store(number, new_posting());
   return records.postings[number];
 }
@@ -37,7 +29,10 @@ inline Posting& Writer::single_posting(List list, std::uint32_t term) {
 inline std::uint32_t Writer::graph_number(std::uint32_t name) {
   Node& node = records.nodes.reserve(name);
   if (node.as_graph == 0) {
-    records.graphs.reserve(records.graph_count + 1) = {name, new_posting(), 0, 0};
+    Graph& made = records.graphs.reserve(records.graph_count + 1);
+    made = {};
+    made.members.patience = kFirstPatience;
+    made.name = name;
     store(node.as_graph, records.graph_count + 1);
     store(records.graph_count, records.graph_count + 1);
   }
@@ -47,17 +42,17 @@ inline std::uint32_t Writer::graph_number(std::uint32_t name) {
 // A predicate's distinct subjects or objects: its SP or PO lists that are not empty.
 void Writer::count_pair(List list, std::uint32_t predicate, int by) {
   if (list == kListOS) return;
-  Posting& all = single_posting(kListP, predicate);
+  Posting& all = of_predicate(predicate);
   std::uint32_t& counter = all.summary[list == kListSP ? kSubjects : kObjects];
   store(counter, counter + static_cast<std::uint32_t>(by));
 }
 
-inline void Writer::append(Posting& posting, List list, std::uint32_t triple,
+inline void Writer::append(Chain& chain, List list, std::uint32_t triple,
                            std::uint32_t& tail_before) {
-  tail_before = posting.tail;
-  store(posting.tail == 0 ? posting.head : records.triples[posting.tail].next[list], triple);
-  posting.tail = triple;
-  store(posting.count, posting.count + 1);
+  tail_before = chain.tail;
+  store(chain.tail == 0 ? chain.head : records.triples[chain.tail].next[list], triple);
+  chain.tail = triple;
+  store(chain.count, chain.count + 1);
 }
 
 inline void Writer::filter(Posting& posting, std::uint32_t triple) const {
@@ -83,16 +78,16 @@ bool Writer::append_pair(List list, const PairKey& key, const PairPlace& place,
     const std::uint32_t only = number;
     number = new_posting(key.pair.first, key.pair.second);
     Posting& made = records.postings[number];
-    made.tail = only;
-    store(made.count, 1);
-    store(made.head, only);
+    made.chain.tail = only;
+    store(made.chain.count, 1);
+    store(made.chain.head, only);
     if (list == kListSP) filter(made, only);
     table.replace(place.at, number, true);
   }
   Posting& posting = records.postings[number];
   if (list == kListSP) filter(posting, triple);
-  append(posting, list, triple, tail_before);
-  return posting.count == 1;
+  append(posting.chain, list, triple, tail_before);
+  return posting.chain.count == 1;
 }
 
 void Writer::append_between(std::uint32_t triple, Version version) {
@@ -103,15 +98,15 @@ void Writer::append_between(std::uint32_t triple, Version version) {
 
 // A triple is in a list OS exactly if its subject and its object are crowded. It stays crowded:
 // when it became so by what is now taken back, a reader may have seen it already.
-void Writer::make_crowded(Posting& posting, List list, Version version) {
-  for (std::uint32_t at = posting.head; at != 0;) {
+void Writer::make_crowded(Node& node, List list, Version version) {
+  for (std::uint32_t at = Records::chain(node, list).head; at != 0;) {
     const Triple& triple = records.triples[at];
-    const Node& node = records.nodes[list == kListS ? triple.object : triple.subject];
-    const std::uint32_t other = list == kListS ? node.as_object : node.as_subject;
-    if (Records::crowded(records.postings[other])) append_between(at, version);
+    const bool other_too = list == kListS ? records.nodes[triple.object].object_is_crowded != 0
+                                          : records.nodes[triple.subject].subject_is_crowded != 0;
+    if (other_too) append_between(at, version);
     at = triple.next[list];
   }
-  store(posting.first, 1);
+  store(list == kListS ? node.subject_is_crowded : node.object_is_crowded, 1);
 }
 
 void Writer::refuse_long() const {
@@ -123,7 +118,7 @@ void Writer::refuse_long() const {
 
 void Writer::refuse_full() const {
   Problem problem;
-  problem.what = fmt::format("the store is full: it holds {} triples in {} graph memberships",
+  problem.what = fmt::format("the store is full: it holds {} triples, {} times in a further graph",
                              records.triple_count, records.membership_count);
   problem.remedy = "raise its limit, or remove what is not needed and begin a new transaction";
   throw Error(std::move(problem));
@@ -146,22 +141,20 @@ bool Writer::add(const Quad& quad, Version version) {
   const PairKey of_subject = key({subject, predicate}), of_object = key({predicate, object});
   records.pairs[kListSP].prefetch(of_subject.hash);
   records.pairs[kListPO].prefetch(of_object.hash);
-  Posting& to = single_posting(kListO, object);
-  Posting& from = single_posting(kListS, subject);
-  Posting& all = single_posting(kListP, predicate);
-  records.triples.prefetch(to.tail);
-  records.triples.prefetch(all.tail);
+  Node& to = records.nodes.reserve(object);
+  Node& from = records.nodes.reserve(subject);
+  Posting& all = of_predicate(predicate);
+  records.triples.prefetch(to.as_object.tail);
 
   Change change{};
   const PairPlace at_subject = place(kListSP, of_subject, version);
   const std::uint32_t present =
       at_subject.found ? records.find(subject, predicate, object, version, at_subject.found) : 0;
+  const std::uint32_t graph = quad.graph.value;
   if (present) {
-    if (find_membership(present, quad.graph.value)) return false;
-    change.kind = Change::kAddMembership;
-    change.record = present;
-    change.membership = append_membership(present, quad.graph.value, version, change);
-    note(change);
+    std::uint32_t membership = 0;
+    if (find_membership(present, graph, membership)) return false;
+    append_membership(present, graph, version);
     return true;
   }
 
@@ -174,17 +167,21 @@ bool Writer::add(const Quad& quad, Version version) {
   triple.subject = subject;
   triple.predicate = predicate;
   triple.object = object;
-  store(triple.graph, quad.graph.value);
-  store(triple.first_membership, 0);
-  triple.last_membership = 0;
+  triple.graph = graph;
   for (std::uint32_t& next : triple.next) store(next, 0);
-  change.membership = append_membership(number, quad.graph.value, version, change);
+  store(triple.next_in_graph, 0);
+  store(triple.memberships, 0);
+  change.graph_tail = append_member(graph, number);
 
-  if (from.count >= kUncrowded && !Records::crowded(from)) make_crowded(from, kListS, version);
-  if (to.count >= kUncrowded && !Records::crowded(to)) make_crowded(to, kListO, version);
-  append(from, kListS, number, change.tails[kListS]);
-  append(all, kListP, number, change.tails[kListP]);
-  append(to, kListO, number, change.tails[kListO]);
+  if (from.as_subject.count >= kUncrowded && !from.subject_is_crowded) {
+    make_crowded(from, kListS, version);
+  }
+  if (to.as_object.count >= kUncrowded && !to.object_is_crowded) {
+    make_crowded(to, kListO, version);
+  }
+  append(from.as_subject, kListS, number, change.tails[kListS]);
+  append(all.chain, kListP, number, change.tails[kListP]);
+  append(to.as_object, kListO, number, change.tails[kListO]);
   if (append_pair(kListSP, of_subject, at_subject, number, change.tails[kListSP])) {
     store(all.summary[kSubjects], all.summary[kSubjects] + 1);
   }
@@ -194,140 +191,163 @@ bool Writer::add(const Quad& quad, Version version) {
   }
   change.pairs[kListSP] = at_subject.at;
   change.pairs[kListPO] = at_object.at;
-  if (Records::crowded(from) && Records::crowded(to)) append_between(number, version);
+  if (from.subject_is_crowded && to.object_is_crowded) append_between(number, version);
   store(records.triple_count, number);
   ++records.live_count;
-  note(change);
+  note_triple(change);
   return true;
 }
 
-inline void Writer::expect_pairs(const Quad& quad) {
+inline void Writer::note_triple(const Change& change) {
+  if (marked_ || noted_ > 0) {
+    if (!marked_) --noted_;
+    return note(change);
+  }
+  if (change_count_ > 0) {
+    Change& last = (*log_)[change_count_ - 1];
+    if (last.kind == Change::kAddTriples) {
+      ++last.count;
+      return;
+    }
+  }
+  // Each further run is farther away, so that they are few.
+  noted_ = noted_after_run_ *= 2;
+  Change run{};
+  run.kind = Change::kAddTriples;
+  run.record = change.record;
+  run.count = 1;
+  note(run);
+}
+
+inline void Writer::expect_places(const Quad& quad) {
   records.pairs[kListSP].prefetch(hash_pair(quad.subject.value, quad.predicate.value));
   records.pairs[kListPO].prefetch(hash_pair(quad.predicate.value, quad.object.value));
   __builtin_prefetch(&records.nodes.reserve(quad.object.value), 1);
 }
 
-inline void Writer::expect_list(const Quad& quad) const {
-  records.postings.prefetch(records.nodes[quad.object.value].as_object);
-}
-
 inline void Writer::expect_tail(const Quad& quad) const {
-  const std::uint32_t to = records.nodes[quad.object.value].as_object;
-  if (to != 0) records.triples.prefetch(records.postings[to].tail);
+  records.triples.prefetch(records.nodes[quad.object.value].as_object.tail);
 }
 
 std::size_t Writer::add(std::span<const Quad> quads, Version version) {
   // Steps ahead, some 30 ns each: memory out of the caches answers in 50 to 100 ns. What all quads
   // of one subject share is near anyway; objects are what jumps about.
-  constexpr std::size_t kPairs = 12, kList = 8, kTail = 4;
-  constexpr std::uint32_t kOutOfCaches = 1 << 14;  // triples
+  constexpr std::size_t kPlaces = 12, kTail = 6;
+  constexpr std::uint32_t kOutOfCaches = 1 << 13;  // triples
   std::size_t count = 0, at = 0;
   for (; records.triple_count < kOutOfCaches && at < quads.size(); ++at) {
     count += add(quads[at], version);
   }
   for (const std::size_t begin = at; at < quads.size(); ++at) {
-    if (at + kPairs < quads.size()) expect_pairs(quads[at + kPairs]);
-    if (at >= begin + kPairs - kList && at + kList < quads.size()) expect_list(quads[at + kList]);
-    if (at >= begin + kPairs - kTail && at + kTail < quads.size()) expect_tail(quads[at + kTail]);
+    if (at + kPlaces < quads.size()) expect_places(quads[at + kPlaces]);
+    if (at >= begin + kPlaces - kTail && at + kTail < quads.size()) expect_tail(quads[at + kTail]);
     count += add(quads[at], version);
   }
   return count;
 }
 
-std::uint32_t Writer::append_membership(std::uint32_t triple_number, std::uint32_t graph_name,
-                                        Version version, Change& change) {
-  Graph& graph = records.graphs[graph_number(graph_name)];
+inline std::uint32_t Writer::append_member(std::uint32_t graph_name, std::uint32_t member) {
+  Chain& members = records.graphs[graph_number(graph_name)].members;
+  const std::uint32_t tail_before = members.tail;
+  store(tail_before == 0 ? members.head : next_in_graph(tail_before), member);
+  members.tail = member;
+  store(members.count, members.count + 1);
+  return tail_before;
+}
+
+void Writer::append_membership(std::uint32_t triple_number, std::uint32_t graph, Version version) {
   Triple& triple = records.triples[triple_number];
   const std::uint32_t number = ++records.membership_count;
   Membership& membership = records.memberships.reserve(number);
   store(membership.added, version);
   store(membership.removed, kNever);
   membership.triple = triple_number;
-  membership.graph = graph_name;
+  membership.graph = graph;
   store(membership.next_of_triple, 0);
   store(membership.next_in_graph, 0);
-
-  Posting& members = records.postings[graph.members];
-  change.graph_tail = members.tail;
-  store(members.tail == 0 ? members.head : records.memberships[members.tail].next_in_graph, number);
-  members.tail = number;
-  store(members.count, members.count + 1);
-
-  if (triple.last_membership == 0) {
-    store(triple.first_membership, number);
+  membership.last_of_triple = number;
+  Change change{};
+  change.kind = Change::kAddMembership;
+  change.record = triple_number;
+  change.membership = number;
+  change.graph_tail = append_member(graph, number | kFurther);
+  if (triple.memberships == 0) {
+    store(triple.memberships, number);
   } else {
-    change.tails[0] = triple.last_membership;
-    change.graph = triple.graph;
-    store(records.memberships[triple.last_membership].next_of_triple, number);
-    store(triple.graph, kSeveralGraphs);
+    std::uint32_t& last = records.memberships[triple.memberships].last_of_triple;
+    change.tails[0] = last;
+    store(records.memberships[last].next_of_triple, number);
+    last = number;
   }
-  triple.last_membership = number;
-  return number;
+  note(change);
 }
 
-// The live membership, or 0. The triple's and the graph's memberships are walked side by side, so
-// the shorter list bounds the time.
-std::uint32_t Writer::find_membership(std::uint32_t triple_number, std::uint32_t graph_name) const {
+// The triple's and the graph's memberships are walked side by side, so the shorter list bounds the
+// time.
+bool Writer::find_membership(std::uint32_t triple_number, std::uint32_t graph_name,
+                             std::uint32_t& membership) const {
   const Triple& triple = records.triples[triple_number];
+  membership = 0;
+  if (triple.graph == graph_name && triple.removed == kNever) return true;
   const auto is_it = [&](std::uint32_t number) {
-    const Membership& membership = records.memberships[number];
-    return membership.triple == triple_number && membership.graph == graph_name &&
-           membership.removed == kNever;
+    const Membership& further = records.memberships[number];
+    if (further.triple != triple_number || further.graph != graph_name ||
+        further.removed != kNever) {
+      return false;
+    }
+    membership = number;
+    return true;
   };
-  if (triple.graph != kSeveralGraphs) {
-    return triple.graph == graph_name ? triple.first_membership : 0;
-  }
   const Graph* graph = records.graph(graph_name);
-  if (!graph) return 0;
-  std::uint32_t of_triple = triple.first_membership;
-  std::uint32_t in_graph = records.postings[graph->members].head;
+  if (!graph) return false;
+  std::uint32_t of_triple = triple.memberships;
+  std::uint32_t in_graph = graph->members.head;
   while (of_triple != 0 && in_graph != 0) {
-    if (is_it(of_triple)) return of_triple;
-    if (is_it(in_graph)) return in_graph;
+    if (is_it(of_triple)) return true;
     of_triple = records.memberships[of_triple].next_of_triple;
-    in_graph = records.memberships[in_graph].next_in_graph;
+    if (in_graph & kFurther) {
+      if (is_it(in_graph & ~kFurther)) return true;
+      in_graph = records.memberships[in_graph & ~kFurther].next_in_graph;
+    } else {
+      in_graph = records.triples[in_graph].next_in_graph;
+    }
   }
-  return 0;
+  return false;
 }
 
 bool Writer::remove(const Quad& quad, Version version) {
   const std::uint32_t triple =
       records.find(quad.subject.value, quad.predicate.value, quad.object.value, version);
-  const std::uint32_t membership = triple ? find_membership(triple, quad.graph.value) : 0;
-  if (!membership) return false;
-  remove_membership(membership, version);
+  std::uint32_t membership = 0;
+  if (!triple || !find_membership(triple, quad.graph.value, membership)) return false;
+  remove_membership(triple, membership, version);
   return true;
 }
 
-void Writer::remove_membership(std::uint32_t number, Version version) {
+void Writer::remove_membership(std::uint32_t number, std::uint32_t membership, Version version) {
   prepare();
-  Membership& membership = records.memberships[number];
-  Triple& triple = records.triples[membership.triple];
-  store(membership.removed, version);
+  Triple& triple = records.triples[number];
+  store(membership ? records.memberships[membership].removed : triple.removed, version);
   Change change{};
   change.kind = Change::kRemove;
-  change.record = membership.triple;
-  change.membership = number;
-  change.last = true;
-  if (triple.graph == kSeveralGraphs) {
-    for (std::uint32_t at = triple.first_membership; at != 0 && change.last;) {
-      change.last = records.memberships[at].removed != kNever;
-      at = records.memberships[at].next_of_triple;
-    }
-  }
-  if (change.last) {
-    store(triple.removed, version);
-    --records.live_count;
-  }
+  change.record = number;
+  change.membership = membership;
+  change.last = !records.still_there(triple, version);
+  if (change.last) --records.live_count;
   note(change);
 }
 
 void Writer::clear(std::uint32_t name, Version version) {
   const Graph* graph = records.graph(name);
   if (!graph) return;
-  for (std::uint32_t at = records.postings[graph->members].head; at != 0;) {
-    if (records.memberships[at].removed == kNever) remove_membership(at, version);
-    at = records.memberships[at].next_in_graph;
+  for (std::uint32_t at = graph->members.head; at != 0; at = next_in_graph(at)) {
+    if (at & kFurther) {
+      const Membership& membership = records.memberships[at & ~kFurther];
+      if (membership.removed == kNever)
+        remove_membership(membership.triple, at & ~kFurther, version);
+    } else if (records.triples[at].removed == kNever) {
+      remove_membership(at, 0, version);
+    }
   }
 }
 

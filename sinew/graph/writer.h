@@ -12,18 +12,26 @@
 
 namespace sinew::graph {
 
-// What one change did, for taking it back: 56 bytes. Additions remember where they were appended.
+// What one change did, for taking it back. Additions remember where they were appended.
 struct Change {
-  enum Kind : std::uint32_t { kAddTriple, kAddMembership, kRemove, kAddMark, kRemoveMark };
+  enum Kind : std::uint32_t {
+    kAddTriple,
+    kAddTriples,  // a run of them, of which nothing is remembered: `count` from `record` on
+    kAddMembership,
+    kRemove,
+    kAddMark,
+    kRemoveMark
+  };
   Kind kind;
   std::uint32_t record;         // the triple, or the mark
-  std::uint32_t graph_tail;     // the graph's last membership before
+  std::uint32_t graph_tail;     // the graph's last member before
   std::uint32_t pairs[2];       // kAddTriple: where SP and PO were in their tables
   std::uint32_t tails[kLists];  // kAddTriple: each list's last triple before, but OS;
                                 // kAddMembership: [0] the triple's last membership before
-  std::uint32_t graph;          // kAddMembership: Triple::graph before; marks: the graph's number
-  std::uint32_t membership;     // the one that was added or removed
-  bool last;                    // kRemove: the triple is gone with its last membership
+  std::uint32_t graph;          // marks: the graph's number
+  std::uint32_t membership;     // the one that was added or removed; 0: the triple's own
+  std::uint32_t count;          // kAddTriples
+  bool last;                    // kRemove: no graph holds the triple any more
 };
 
 class Writer {
@@ -41,7 +49,11 @@ class Writer {
   void create_graph(std::uint32_t graph, Version version);
   void drop_graph(std::uint32_t graph, Version version);
 
+  // A new transaction.
+  void start();
   std::size_t changes() const { return change_count_; }
+  // For undo_to. From then on, every change is noted in full.
+  std::size_t mark();
   void undo_to(std::size_t mark);
   // Forgets how to undo. Records that were removed and that no reader of version `oldest` or later
   // can see are unlinked, list by list, when as many were removed from a list as remained: constant
@@ -57,6 +69,11 @@ class Writer {
   static constexpr std::uint32_t kTripleSweep = 16;
   // A longer log's memory is given back after its transaction.
   static constexpr std::uint32_t kLargeLog = 1 << 16;
+  // Notes cost memory and time, and most transactions are not taken back. So, as long as there is
+  // no mark, only the first additions are noted in full, of what follows only that it was added.
+  // Taking that back walks the lists that it is in: they have at most so many triples in all for
+  // each that was noted in full.
+  static constexpr std::uint32_t kNotedAtLeast = 256, kTriplesForEachNoted = 64;
 
   struct PairKey {
     Records::Pair pair;
@@ -73,27 +90,36 @@ class Writer {
   bool append_pair(List list, const PairKey& key, const PairPlace& place, std::uint32_t triple,
                    std::uint32_t& tail_before);
   void append_between(std::uint32_t triple, Version version);
-  void make_crowded(Posting& posting, List list, Version version);
+  void make_crowded(Node& node, List list, Version version);
   // Adds the triple's object to the filter of its SP list.
   void filter(Posting& posting, std::uint32_t triple) const;
-  void append(Posting& posting, List list, std::uint32_t triple, std::uint32_t& tail_before);
+  void append(Chain& chain, List list, std::uint32_t triple, std::uint32_t& tail_before);
   void undo_pair(List list, std::uint32_t triple, std::uint32_t at, std::uint32_t tail_before);
-  void undo_append(Posting& posting, List list, std::uint32_t tail_before);
+  void undo_append(Chain& chain, List list, std::uint32_t tail_before);
+  void undo_run(std::uint32_t first, std::uint32_t count);
+  void cut_pair(List list, const Triple& triple, std::uint32_t first);
+  bool cut(Chain& chain, List list, std::uint32_t first);
+  void cut_graph(Chain& members, std::uint32_t first);
   std::uint32_t new_posting(std::uint32_t first = 0, std::uint32_t second = 0);
-  Posting& single_posting(List list, std::uint32_t term);
+  Posting& of_predicate(std::uint32_t term);
   std::uint32_t graph_number(std::uint32_t name);
-  std::uint32_t find_membership(std::uint32_t triple, std::uint32_t graph) const;
-  std::uint32_t append_membership(std::uint32_t triple, std::uint32_t graph, Version version,
-                                  Change& change);
-  void remove_membership(std::uint32_t membership, Version version);
+  std::uint32_t& next_in_graph(std::uint32_t member) {
+    return member & kFurther ? records.memberships[member & ~kFurther].next_in_graph
+                             : records.triples[member].next_in_graph;
+  }
+  // Whether the graph holds the triple, and by which membership: 0 is the triple's own.
+  bool find_membership(std::uint32_t triple, std::uint32_t graph, std::uint32_t& membership) const;
+  // Appends to the graph's list; returns its last member before.
+  std::uint32_t append_member(std::uint32_t graph, std::uint32_t member);
+  void undo_member(std::uint32_t graph, std::uint32_t tail_before);
+  void append_membership(std::uint32_t triple, std::uint32_t graph, Version version);
+  void remove_membership(std::uint32_t triple, std::uint32_t membership, Version version);
   void undo(const Change& change);
-  void undo_membership(const Change& change);
   [[noreturn]] void refuse_full() const;
   [[noreturn]] void refuse_long() const;
   // Asks for what adding the quad will need, so that it is there in time: the farther ahead, the
   // less is known of it.
-  void expect_pairs(const Quad& quad);
-  void expect_list(const Quad& quad) const;
+  void expect_places(const Quad& quad);
   void expect_tail(const Quad& quad) const;
   // To be called before a change, so that nothing can fail between it and its note.
   void prepare();
@@ -101,13 +127,14 @@ class Writer {
     (*log_)[change_count_++] = change;
     if (is_removal(change)) ++removal_count_;
   }
+  void note_triple(const Change& change);
   static bool is_removal(const Change& change) {
     return change.kind == Change::kRemove || change.kind == Change::kRemoveMark;
   }
   void count_pair(List list, std::uint32_t predicate, int by);
   void sweep_pair(List list, const Triple& triple, Version oldest);
-  void sweep(Posting& posting, List list, Version oldest);
-  void sweep_graph(std::uint32_t posting, Version oldest);
+  void sweep(Chain& chain, List list, Version oldest);
+  void sweep_graph(Chain& members, Version oldest);
   void sweep_triple(Triple& triple, Version oldest);
 
   std::uint32_t limit_;
@@ -116,6 +143,9 @@ class Writer {
       std::make_unique<StableArray<Change, Fill::kRaw>>();
   std::uint32_t change_count_ = 0;
   std::uint32_t removal_count_ = 0;  // of these changes
+  bool marked_ = false;
+  std::uint32_t noted_ = 0;  // additions that are still noted in full, if there is no mark
+  std::uint32_t noted_after_run_ = 0;
 };
 
 }  // namespace sinew::graph

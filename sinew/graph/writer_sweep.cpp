@@ -1,4 +1,6 @@
 // Unlinking removed records, so that lists stay as short as what is alive in them.
+#include <algorithm>
+
 #include "sinew/graph/writer.h"
 
 namespace sinew::graph {
@@ -10,17 +12,18 @@ void Writer::finish(Version oldest) {
     --removal_count_;
     ++dead_records_;
     if (change.kind == Change::kRemoveMark) continue;
-    const std::uint32_t graph = records.memberships[change.membership].graph;
-    sweep_graph(records.graph(graph)->members, oldest);
     Triple& triple = records.triples[change.record];
+    const std::uint32_t graph =
+        change.membership ? records.memberships[change.membership].graph : triple.graph;
+    sweep_graph(records.graphs[records.nodes[graph].as_graph].members, oldest);
     if (!change.last) {
-      if (change.membership % kTripleSweep == 0) sweep_triple(triple, oldest);
+      if (change.membership && change.membership % kTripleSweep == 0) sweep_triple(triple, oldest);
       continue;
     }
     for (const List list : {kListSP, kListPO, kListOS}) sweep_pair(list, triple, oldest);
-    sweep(records.postings[records.nodes[triple.subject].as_subject], kListS, oldest);
-    sweep(records.postings[records.nodes[triple.predicate].as_predicate], kListP, oldest);
-    sweep(records.postings[records.nodes[triple.object].as_object], kListO, oldest);
+    sweep(records.nodes[triple.subject].as_subject, kListS, oldest);
+    sweep(of_predicate(triple.predicate).chain, kListP, oldest);
+    sweep(records.nodes[triple.object].as_object, kListO, oldest);
   }
   if (change_count_ > kLargeLog) log_ = std::make_unique<StableArray<Change, Fill::kRaw>>();
   change_count_ = 0;
@@ -28,17 +31,19 @@ void Writer::finish(Version oldest) {
 
 namespace {
 
-// Unlinks what no reader needs. Returns the number of records that were removed but must stay.
-template <typename Array, typename Next>
-std::uint32_t unlink(Array& array, std::uint32_t& head, std::uint32_t& tail, std::uint32_t& count,
-                     Version oldest, Next&& next) {
+// Unlinks what no reader needs: for which removed(at) is not later than `oldest`. Returns the
+// number of records that were removed but must stay.
+template <typename Removed, typename Next>
+std::uint32_t unlink(std::uint32_t& head, std::uint32_t& tail, std::uint32_t& count, Version oldest,
+                     Removed&& removed, Next&& next) {
   std::uint32_t kept = 0, last = 0, left = 0;
   for (std::uint32_t at = head; at != 0;) {
-    const std::uint32_t following = next(array[at]);
-    if (array[at].removed <= oldest) {
-      store(last == 0 ? head : next(array[last]), following);
+    const std::uint32_t following = next(at);
+    const Version end = removed(at);
+    if (end <= oldest) {
+      store(last == 0 ? head : next(last), following);
     } else {
-      if (array[at].removed != kNever) ++kept;
+      if (end != kNever) ++kept;
       last = at;
       ++left;
     }
@@ -49,9 +54,9 @@ std::uint32_t unlink(Array& array, std::uint32_t& head, std::uint32_t& tail, std
   return kept;
 }
 
-bool patient(Posting& posting) {
-  if (posting.patience == 0) return posting.count == 0;
-  --posting.patience;
+bool patient(Chain& chain) {
+  if (chain.patience == 0) return chain.count == 0;
+  --chain.patience;
   return true;
 }
 
@@ -62,32 +67,50 @@ void Writer::sweep_pair(List list, const Triple& triple, Version oldest) {
   const SlotTable::Slot found = records.find_pair(list, Records::pair_of(triple, list), kNever - 1);
   if (!found.marked()) return;
   Posting& posting = records.postings[found.number()];
-  const bool was_empty = posting.count == 0;
-  sweep(posting, list, oldest);
-  if (posting.count == 0 && !was_empty) count_pair(list, triple.predicate, -1);
+  const bool was_empty = posting.chain.count == 0;
+  sweep(posting.chain, list, oldest);
+  if (posting.chain.count == 0 && !was_empty) count_pair(list, triple.predicate, -1);
 }
 
-void Writer::sweep(Posting& posting, List list, Version oldest) {
-  if (patient(posting)) return;
+void Writer::sweep(Chain& chain, List list, Version oldest) {
+  if (patient(chain)) return;
+  // Until when the last graph holds it.
+  const auto removed = [this](std::uint32_t at) {
+    const Triple& triple = records.triples[at];
+    Version end = triple.removed;
+    for (std::uint32_t held = triple.memberships; held != 0;) {
+      end = std::max(end, records.memberships[held].removed);
+      held = records.memberships[held].next_of_triple;
+    }
+    return end;
+  };
   const std::uint32_t kept =
-      unlink(records.triples, posting.head, posting.tail, posting.count, oldest,
-             [list](Triple& triple) -> std::uint32_t& { return triple.next[list]; });
-  posting.patience = posting.count + kept + kFirstPatience;
+      unlink(chain.head, chain.tail, chain.count, oldest, removed,
+             [&](std::uint32_t at) -> std::uint32_t& { return records.triples[at].next[list]; });
+  chain.patience = chain.count + kept + kFirstPatience;
 }
 
-void Writer::sweep_graph(std::uint32_t number, Version oldest) {
-  Posting& posting = records.postings[number];
-  if (patient(posting)) return;
+void Writer::sweep_graph(Chain& members, Version oldest) {
+  if (patient(members)) return;
+  const auto removed = [this](std::uint32_t at) {
+    return at & kFurther ? records.memberships[at & ~kFurther].removed
+                         : records.triples[at].removed;
+  };
   const std::uint32_t kept =
-      unlink(records.memberships, posting.head, posting.tail, posting.count, oldest,
-             [](Membership& membership) -> std::uint32_t& { return membership.next_in_graph; });
-  posting.patience = posting.count + kept + kFirstPatience;
+      unlink(members.head, members.tail, members.count, oldest, removed,
+             [this](std::uint32_t at) -> std::uint32_t& { return next_in_graph(at); });
+  members.patience = members.count + kept + kFirstPatience;
 }
 
 void Writer::sweep_triple(Triple& triple, Version oldest) {
-  std::uint32_t count = 0;
-  unlink(records.memberships, triple.first_membership, triple.last_membership, count, oldest,
-         [](Membership& membership) -> std::uint32_t& { return membership.next_of_triple; });
+  std::uint32_t last = 0, count = 0;
+  unlink(
+      triple.memberships, last, count, oldest,
+      [this](std::uint32_t at) { return records.memberships[at].removed; },
+      [this](std::uint32_t at) -> std::uint32_t& {
+        return records.memberships[at].next_of_triple;
+      });
+  if (last != 0) records.memberships[triple.memberships].last_of_triple = last;
 }
 
 }  // namespace sinew::graph
