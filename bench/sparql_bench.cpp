@@ -2,7 +2,7 @@
 // triples).
 //
 //   bench_sparql                                 prepared queries, anchors rotating; and preparing;
-//                                                all_frames also with its edges packed
+//                                                all_frames also with nothing remembered
 // For bench/sparql/compare, which asks other engines the same:
 //   bench_sparql --dump=FILE --copies=8          the data as N-Triples
 //   bench_sparql --answers=FILE --copies=8       for each query its anchors and the rows found from
@@ -63,14 +63,14 @@ struct Anchored {
 };
 
 void run_query(benchmark::State& state, const QueryFile& file, std::size_t copies,
-               bool pack = false) {
+               bool remember = true) {
   graph::Store* store = nullptr;
   robots(copies, &store);
   if (store->view().size() == 0) return state.SkipWithError("no published models here");
   const Anchored query(*store, file);
-  graph::Packed packed(store->snapshot());
-  if (pack) query.query->pack(packed);
-  const graph::View view = pack ? packed.view() : store->view();
+  // Of what a transaction sees, which may change, nothing is remembered.
+  const graph::Transaction transaction = store->begin();
+  const graph::View view = remember ? store->view() : transaction.view();
   std::size_t next = 0;
   std::size_t rows = 0;
   for (auto _ : state) {
@@ -80,18 +80,6 @@ void run_query(benchmark::State& state, const QueryFile& file, std::size_t copie
   state.counters["anchors"] = static_cast<double>(query.anchors.size());
   state.counters["rows"] =
       benchmark::Counter(static_cast<double>(rows), benchmark::Counter::kAvgIterations);
-}
-
-// What packing costs, once for each version that is walked often.
-void pack_for_query(benchmark::State& state, const QueryFile& file) {
-  graph::Store* store = nullptr;
-  robots(8, &store);
-  const Anchored query(*store, file);
-  for (auto _ : state) {
-    graph::Packed packed(store->snapshot());
-    query.query->pack(packed);
-    benchmark::DoNotOptimize(packed.view());
-  }
 }
 
 void prepare_query(benchmark::State& state, const QueryFile& file) {
@@ -210,12 +198,9 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   for (const QueryFile& file : bench::query_files()) {
     if (file.name == "all_frames") {
-      benchmark::RegisterBenchmark("all_frames_packed/8", [file](benchmark::State& state) {
-        run_query(state, file, 8, true);
+      benchmark::RegisterBenchmark("all_frames_anew/8", [file](benchmark::State& state) {
+        run_query(state, file, 8, false);
       });
-      benchmark::RegisterBenchmark("pack/all_frames", [file](benchmark::State& state) {
-        pack_for_query(state, file);
-      })->Unit(benchmark::kMicrosecond);
     }
     for (const std::size_t size : {1, 8, 75}) {
       benchmark::RegisterBenchmark(

@@ -73,8 +73,23 @@ void BM_insert_graph(benchmark::State& state) {
 }
 BENCHMARK(BM_insert_graph)->Unit(benchmark::kMicrosecond);
 
-// From every node to those that it is linked to.
+// From every node to those that it is linked to, by the edges that the store keeps packed.
 void BM_visit_graph(benchmark::State& state) {
+  const Inserted made;
+  for (auto _ : state) {
+    const auto links = made.store.edges(made.linked, graph::Direction::kOut);
+    std::uint64_t sum = 0;
+    links->visit([&](graph::Id, std::span<const graph::Id> linked_to) {
+      for (const graph::Id id : linked_to) sum += id.value;
+    });
+    benchmark::DoNotOptimize(sum);
+  }
+  count(state);
+}
+BENCHMARK(BM_visit_graph)->Unit(benchmark::kMicrosecond);
+
+// The same with a look-up for each node.
+void BM_visit_graph_by_look_up(benchmark::State& state) {
   const Inserted made;
   const graph::Snapshot snapshot = made.store.snapshot();
   for (auto _ : state) {
@@ -89,23 +104,9 @@ void BM_visit_graph(benchmark::State& state) {
   }
   count(state);
 }
-BENCHMARK(BM_visit_graph)->Unit(benchmark::kMicrosecond);
+BENCHMARK(BM_visit_graph_by_look_up)->Unit(benchmark::kMicrosecond);
 
-// The same from packed edges, which are made once of a version.
-void BM_visit_graph_packed(benchmark::State& state) {
-  const Inserted made;
-  const graph::Adjacency links(made.store.snapshot(), made.linked, graph::Direction::kOut);
-  for (auto _ : state) {
-    std::uint64_t sum = 0;
-    links.visit([&](graph::Id, std::span<const graph::Id> linked_to) {
-      for (const graph::Id id : linked_to) sum += id.value;
-    });
-    benchmark::DoNotOptimize(sum);
-  }
-  count(state);
-}
-BENCHMARK(BM_visit_graph_packed)->Unit(benchmark::kMicrosecond);
-
+// What the first one after a commit has to do before.
 void BM_pack_graph(benchmark::State& state) {
   const Inserted made;
   const graph::Snapshot snapshot = made.store.snapshot();
@@ -157,8 +158,23 @@ void BM_insert_world(benchmark::State& state) {
 }
 BENCHMARK(BM_insert_world)->Unit(benchmark::kMicrosecond);
 
-// From every frame over its list of relations.
+// From every frame to those that relations link it with, by the links that the world keeps packed.
 void BM_visit_world(benchmark::State& state) {
+  const auto made = world_of_names();
+  for (auto _ : state) {
+    const auto links = made->links();
+    std::uint64_t sum = 0;
+    for (world::Index frame = 0; frame < links->frames(); ++frame) {
+      for (const world::Link link : links->of(frame)) sum += link.other;
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+  count(state);
+}
+BENCHMARK(BM_visit_world)->Unit(benchmark::kMicrosecond);
+
+// The same over each frame's list of relations.
+void BM_visit_world_by_lists(benchmark::State& state) {
   const auto made = world_of_names();
   const world::State now = made->state();
   for (auto _ : state) {
@@ -174,22 +190,7 @@ void BM_visit_world(benchmark::State& state) {
   }
   count(state);
 }
-BENCHMARK(BM_visit_world)->Unit(benchmark::kMicrosecond);
-
-// The same from packed links, which are made once of a state.
-void BM_visit_world_packed(benchmark::State& state) {
-  const auto made = world_of_names();
-  const world::Links links(made->state());
-  for (auto _ : state) {
-    std::uint64_t sum = 0;
-    for (world::Index frame = 0; frame < links.frames(); ++frame) {
-      for (const world::Link link : links.of(frame)) sum += link.other;
-    }
-    benchmark::DoNotOptimize(sum);
-  }
-  count(state);
-}
-BENCHMARK(BM_visit_world_packed)->Unit(benchmark::kMicrosecond);
+BENCHMARK(BM_visit_world_by_lists)->Unit(benchmark::kMicrosecond);
 
 void BM_pack_world(benchmark::State& state) {
   const auto made = world_of_names();
@@ -255,14 +256,14 @@ bool same_links(Agraph_t* theirs) {
     listed.emplace_back(terms.text(quad.subject), terms.text(quad.object));
     return true;
   });
-  graph::Adjacency(snapshot, made.linked, graph::Direction::kOut)
-      .visit([&](graph::Id node, std::span<const graph::Id> linked_to) {
+  made.store.edges(made.linked, graph::Direction::kOut)
+      ->visit([&](graph::Id node, std::span<const graph::Id> linked_to) {
         for (const graph::Id id : linked_to) packed.emplace_back(terms.text(node), terms.text(id));
       });
   const auto world = world_of_names();
-  const world::Links links(world->state());
-  for (world::Index frame = 0; frame < links.frames(); ++frame) {
-    for (const world::Link link : links.of(frame)) {
+  const auto links = world->links();
+  for (world::Index frame = 0; frame < links->frames(); ++frame) {
+    for (const world::Link link : links->of(frame)) {
       of_world.emplace_back(names().nodes[frame], names().nodes[link.other]);
     }
   }

@@ -30,15 +30,4 @@ Adjacency::Adjacency(const View& view, Id predicate, Direction direction) {
   for (const Edge& edge : edges) items_[next[edge.node - first_]++] = edge.item;
 }
 
-void Packed::add(Id predicate, Direction direction) {
-  if (find(predicate, direction)) return;
-  entries_.push_back({predicate, direction, Adjacency(snapshot_, predicate, direction)});
-}
-
-View Packed::view() const {
-  View view = snapshot_;
-  view.packed_ = this;
-  return view;
-}
-
 }  // namespace sinew::graph

@@ -1,12 +1,8 @@
-// One version's edges, packed: for each node the ids that it is linked to, one behind the other.
-// Packing costs some ten nanoseconds an edge, once; a node's edges are then two loads away, and all
-// edges are one pass over memory. It pays where one version is walked often.
+// The edges of one predicate in one version, packed: for each node the ids that it is linked to,
+// one behind the other. Packing costs some ten nanoseconds an edge, once; a node's edges are then
+// two loads away, and all edges are one pass over memory. A store keeps them (Store::edges):
 //
-//   Packed packed(store.snapshot());
-//   packed.add(linked, Direction::kOut);
-//   packed.find(linked, Direction::kOut)->visit([](Id node, std::span<const Id> linked_to) {…});
-//   query.select(packed.view(), …);   // a view like any other; whoever knows of packed edges uses
-//                                     // them
+//   store.edges(linked, Direction::kOut)->visit([](Id node, std::span<const Id> linked_to) {…});
 #pragma once
 
 #include <cstddef>
@@ -14,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "sinew/graph/store.h"
+#include "sinew/graph/view.h"
 
 namespace sinew::graph {
 
@@ -49,34 +45,6 @@ class Adjacency {
   std::uint32_t first_ = 0;          // the smallest node
   std::vector<std::uint32_t> ends_;  // of the node before each, from `first_` on
   std::vector<Id> items_;
-};
-
-// Packed edges beside the snapshot that they are of.
-class Packed {
- public:
-  explicit Packed(Snapshot snapshot) : snapshot_(std::move(snapshot)) {}
-  Packed(const Packed&) = delete;
-  Packed& operator=(const Packed&) = delete;
-
-  void add(Id predicate, Direction direction);  // once is enough
-  // Null where it was not added.
-  const Adjacency* find(Id predicate, Direction direction) const {
-    for (const Entry& entry : entries_) {
-      if (entry.predicate == predicate && entry.direction == direction) return &entry.edges;
-    }
-    return nullptr;
-  }
-  // Valid as long as this is, and nothing is added to it.
-  View view() const;
-
- private:
-  struct Entry {
-    Id predicate;
-    Direction direction;
-    Adjacency edges;
-  };
-  Snapshot snapshot_;
-  std::vector<Entry> entries_;
 };
 
 }  // namespace sinew::graph

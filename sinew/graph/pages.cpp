@@ -6,6 +6,7 @@
 #include <cstring>
 #include <mutex>
 #include <new>
+#include <vector>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -134,22 +135,70 @@ Pool& pool() {
   return made;
 }
 
+// Blocks of 2^n huge pages.
+class LargePool {
+ public:
+  void* allocate(std::size_t size, bool& zero) {
+    const unsigned order = order_of(size);
+    {
+      const std::lock_guard lock(mutex_);
+      std::vector<void*>& free = free_[order];
+      zero = free.empty();
+      if (!zero) {
+        void* const block = free.back();
+        free.pop_back();
+        kept_ -= kHugePage << order;
+        return block;
+      }
+    }
+    return map_pages(kHugePage << order);
+  }
+  void release(void* memory, std::size_t size) {
+    const unsigned order = order_of(size);
+    const std::size_t bytes = kHugePage << order;
+    {
+      const std::lock_guard lock(mutex_);
+      if (kept_ + bytes <= kMostKept) {
+        free_[order].push_back(memory);
+        kept_ += bytes;
+        return;
+      }
+    }
+    munmap(memory, bytes);
+  }
+
+ private:
+  static unsigned order_of(std::size_t size) {
+    return static_cast<unsigned>(std::bit_width((size - 1) / kHugePage));
+  }
+  std::mutex mutex_;
+  std::vector<void*> free_[64];
+  std::size_t kept_ = 0;
+};
+
+LargePool& large_pool() {
+  static LargePool& made = *new LargePool;
+  return made;
+}
+
 bool is_pooled(std::size_t size) { return size <= kHugePage / 2; }
+
+void* allocate(std::size_t size, bool& zero) {
+  return is_pooled(size) ? pool().allocate(size, zero) : large_pool().allocate(size, zero);
+}
 
 }  // namespace
 
 void* allocate_zeroed(std::size_t size) {
-  if (!is_pooled(size)) return map_pages(size);
   bool zero = false;
-  void* const memory = pool().allocate(size, zero);
+  void* const memory = allocate(size, zero);
   if (!zero) std::memset(memory, 0, size);
   return memory;
 }
 
 void* allocate_raw(std::size_t size) {
-  if (!is_pooled(size)) return map_pages(size);
   bool zero = false;
-  return pool().allocate(size, zero);
+  return allocate(size, zero);
 }
 
 void release_pages(void* memory, std::size_t size) {
@@ -157,7 +206,7 @@ void release_pages(void* memory, std::size_t size) {
   if (is_pooled(size)) {
     pool().release(memory, size);
   } else {
-    munmap(memory, rounded(size));
+    large_pool().release(memory, size);
   }
 }
 

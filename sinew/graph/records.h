@@ -112,9 +112,13 @@ struct GraphMark {
   std::uint32_t unused;
 };
 
+// Never the same again in this process; never 0.
+std::uint64_t next_identity();
+
 // Reading of the tables at one version; all inline, because matching is the innermost loop of
 // queries.
 struct Records {
+  const std::uint64_t identity = next_identity();
   StableArray<Triple, Fill::kRaw> triples;  // 1 .. triple_count
   StableArray<Membership, Fill::kRaw> memberships;
   StableArray<Posting, Fill::kRaw> postings;

@@ -49,6 +49,18 @@ struct Core {
   std::vector<Reader> readers_;  // by version
 };
 
+// What was packed, of one version.
+struct PackedEdges {
+  struct Entry {
+    Id predicate;
+    Direction direction;
+    std::shared_ptr<const Adjacency> edges;
+  };
+  std::mutex mutex;
+  Version version = 0;
+  std::vector<Entry> entries;
+};
+
 struct StoreData {
   std::shared_ptr<Terms> terms;
   std::uint32_t quad_limit = kMaxQuads;
@@ -58,6 +70,7 @@ struct StoreData {
   mutable std::mutex publishing;  // guards core and present against snapshot()
   std::binary_semaphore writing{1};
   std::atomic<std::thread::id> writer_thread{};
+  mutable PackedEdges packed;
 };
 
 namespace {
@@ -205,6 +218,7 @@ void Transaction::drop_graph(Id graph) { data().core->writer.drop_graph(graph.va
 
 View Transaction::view() const {
   const StoreData& in = data();
+  in.core->writer.show();
   return View(in.present.records, in.terms.get(), version_, View::kUnfinished);
 }
 
@@ -215,6 +229,7 @@ void Transaction::commit() {
   StoreData& in = data();
   Writer& writer = in.core->writer;
   if (writer.changes() > 0) {
+    writer.show();
     {
       const std::lock_guard lock(in.publishing);
       in.present.committed = version_;
@@ -279,6 +294,22 @@ bool Store::remove(const Quad& quad) {
   const bool removed = transaction.remove(quad);
   if (removed) transaction.commit();
   return removed;
+}
+
+std::shared_ptr<const Adjacency> Store::edges(Id predicate, Direction direction) const {
+  PackedEdges& packed = data_->packed;
+  const std::lock_guard lock(packed.mutex);
+  const Snapshot now = snapshot();
+  if (now.stamp().version != packed.version) {
+    packed.entries.clear();
+    packed.version = now.stamp().version;
+  }
+  for (const PackedEdges::Entry& entry : packed.entries) {
+    if (entry.predicate == predicate && entry.direction == direction) return entry.edges;
+  }
+  auto made = std::make_shared<const Adjacency>(now, predicate, direction);
+  packed.entries.push_back({predicate, direction, made});
+  return made;
 }
 
 Store Store::clone() const {

@@ -28,6 +28,7 @@
 #include <memory>
 #include <span>
 
+#include "sinew/graph/packed.h"
 #include "sinew/graph/terms.h"
 #include "sinew/graph/view.h"
 
@@ -110,6 +111,10 @@ class Store {
   // snapshot.
   View view() const;
   Snapshot snapshot() const;  // O(1), any thread
+  // The committed edges of one predicate, or with 0 of all, packed (packed.h): made when they are
+  // first asked for after a commit, the same ones as long as nothing else is committed. For walks
+  // over much of a graph. Any thread; takes a lock.
+  std::shared_ptr<const Adjacency> edges(Id predicate, Direction direction) const;
   Transaction begin();
   bool add(const Quad& quad);  // a transaction of one
   bool remove(const Quad& quad);

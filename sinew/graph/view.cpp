@@ -1,8 +1,14 @@
 #include "sinew/graph/view.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace sinew::graph {
+
+std::uint64_t next_identity() {
+  static std::atomic<std::uint64_t> last = 0;
+  return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
 
 const Terms& View::terms() const { return *terms_; }
 

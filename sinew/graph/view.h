@@ -23,7 +23,13 @@ enum class Dataset : std::uint8_t {
   kDefault,  // the unnamed graph alone (SPARQL's default)
 };
 
-class Packed;
+// Equal for views that see the same for ever; nothing is known of one that is 0.
+struct Stamp {
+  std::uint64_t records = 0;
+  Version version = 0;
+  explicit operator bool() const { return records != 0; }
+  friend bool operator==(const Stamp&, const Stamp&) = default;
+};
 
 // What a store publishes of its present.
 struct Present {
@@ -84,8 +90,11 @@ class View {
   bool named_graphs(Visit&& visit) const;
   bool has_graph(Id graph) const;
 
-  // The packed edges that come with it (packed.h), or null.
-  const Packed* packed() const { return packed_; }
+  // Of what is committed; 0 of a transaction's own view, which changes.
+  Stamp stamp() const {
+    if (!present_ && size_ == kUnfinished) return {};
+    return {records().identity, version()};
+  }
 
   // The present of a store, as it is at each call.
   explicit View(const Present* present) : present_(present), terms_(present->terms) {}
@@ -99,7 +108,6 @@ class View {
 
  private:
   friend class Steps;
-  friend class Packed;
   const Records& records() const { return present_ ? *present_->records : *records_; }
   Version version() const { return present_ ? present_->committed : version_; }
   static bool named(const Records& records, const Graph& graph, Version version);
@@ -120,7 +128,6 @@ class View {
   const Terms* terms_ = nullptr;
   Version version_ = 0;
   std::size_t size_ = 0;
-  const Packed* packed_ = nullptr;
 };
 
 // Many steps from node to node over one version, as a walk through the graph takes them: less is

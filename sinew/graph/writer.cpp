@@ -131,25 +131,95 @@ inline void Writer::prepare() {
 
 // ---- changes ----
 
+inline bool Writer::is_near(const Node& subject) const {
+  constexpr std::uint32_t kFew = 8;
+  const Chain& chain = subject.as_subject;
+  return chain.count == 0 || (chain.count <= kFew && records.triple_count - chain.tail < 2 * kFew);
+}
+
+inline std::uint32_t Writer::find_near(const Node& subject, const Quad& quad,
+                                       Version version) const {
+  for (std::uint32_t at = subject.as_subject.head; at != 0;) {
+    const Triple& triple = records.triples[at];
+    if (triple.predicate == quad.predicate.value && triple.object == quad.object.value &&
+        records.still_there(triple, version)) {
+      return at;
+    }
+    at = triple.next[kListS];
+  }
+  return 0;
+}
+
+// For the record of a triple that comes soon.
+inline void ask_ahead(const Triple* triple) {
+  constexpr std::uintptr_t kAhead = 16 * sizeof(Triple);
+  __builtin_prefetch(
+      reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(triple) + kAhead), 1);
+}
+
+// Precondition: all triples before it are linked.
+inline void Writer::link(std::uint32_t number, const Ends& ends, const PairPlace& at_subject,
+                         Change& change) {
+  const Triple& triple = records.triples[number];
+  const auto& [subject, object, predicate] = ends;
+  if (object.as_object.count >= kUncrowded && !object.object_is_crowded) {
+    make_crowded(object, kListO, triple.added);
+  }
+  append(object.as_object, kListO, number, change.tails[kListO]);
+  const PairKey of_subject = key({triple.subject, triple.predicate});
+  const PairKey of_object = key({triple.predicate, triple.object});
+  if (append_pair(kListSP, of_subject, at_subject, number, change.tails[kListSP])) {
+    store(predicate.summary[kSubjects], predicate.summary[kSubjects] + 1);
+  }
+  const PairPlace at_object = place(kListPO, of_object, triple.added);
+  if (append_pair(kListPO, of_object, at_object, number, change.tails[kListPO])) {
+    store(predicate.summary[kObjects], predicate.summary[kObjects] + 1);
+  }
+  change.pairs[kListSP] = at_subject.at;
+  change.pairs[kListPO] = at_object.at;
+  if (object.object_is_crowded && subject.subject_is_crowded) append_between(number, triple.added);
+  linked_ = number;
+}
+
+void Writer::link_next() {
+  const std::uint32_t number = linked_ + 1;
+  const Triple& triple = records.triples[number];
+  Change unused;
+  link(number,
+       {records.nodes[triple.subject], records.nodes[triple.object],
+        records.postings[records.nodes[triple.predicate].as_predicate]},
+       place(kListSP, key({triple.subject, triple.predicate}), triple.added), unused);
+}
+
 bool Writer::add(const Quad& quad, Version version) {
   const std::uint32_t subject = quad.subject.value, predicate = quad.predicate.value;
   const std::uint32_t object = quad.object.value;
   if (records.triple_count >= limit_ || records.membership_count >= limit_) refuse_full();
   prepare();
   // What will be needed from far away is asked for first. A term of a triple that is there already
-  // has its lists, so making them here is not in vain.
-  const PairKey of_subject = key({subject, predicate}), of_object = key({predicate, object});
+  // has its record, so making it here is not in vain.
+  const PairKey of_subject = key({subject, predicate});
   records.pairs[kListSP].prefetch(of_subject.hash);
-  records.pairs[kListPO].prefetch(of_object.hash);
+  records.pairs[kListPO].prefetch(hash_pair(predicate, object));
   Node& to = records.nodes.reserve(object);
+  __builtin_prefetch(&to, 1);
   Node& from = records.nodes.reserve(subject);
   Posting& all = of_predicate(predicate);
-  records.triples.prefetch(to.as_object.tail);
 
-  Change change{};
-  const PairPlace at_subject = place(kListSP, of_subject, version);
-  const std::uint32_t present =
-      at_subject.found ? records.find(subject, predicate, object, version, at_subject.found) : 0;
+  const std::uint32_t number = records.triple_count + 1;
+  const bool waits = !shown_ && !notes_all() && number > kOutOfCaches;
+  PairPlace at_subject{0, SlotTable::Slot()};
+  std::uint32_t present = 0;
+  if (waits && is_near(from)) {
+    present = find_near(from, quad, version);
+  } else {
+    if (!waits || from.as_subject.tail > linked_) catch_up();
+    at_subject = place(kListSP, of_subject, version);
+    if (at_subject.found) {
+      if (at_subject.found.marked()) catch_up();  // other lists may be shorter than this one
+      present = records.find(subject, predicate, object, version, at_subject.found);
+    }
+  }
   const std::uint32_t graph = quad.graph.value;
   if (present) {
     std::uint32_t membership = 0;
@@ -158,10 +228,11 @@ bool Writer::add(const Quad& quad, Version version) {
     return true;
   }
 
+  Change change{};
   change.kind = Change::kAddTriple;
-  const std::uint32_t number = records.triple_count + 1;
   change.record = number;
   Triple& triple = records.triples.reserve(number);
+  ask_ahead(&triple);
   store(triple.added, version);
   store(triple.removed, kNever);
   triple.subject = subject;
@@ -174,32 +245,46 @@ bool Writer::add(const Quad& quad, Version version) {
   change.graph_tail = append_member(graph, number);
 
   if (from.as_subject.count >= kUncrowded && !from.subject_is_crowded) {
+    catch_up();
     make_crowded(from, kListS, version);
-  }
-  if (to.as_object.count >= kUncrowded && !to.object_is_crowded) {
-    make_crowded(to, kListO, version);
   }
   append(from.as_subject, kListS, number, change.tails[kListS]);
   append(all.chain, kListP, number, change.tails[kListP]);
-  append(to.as_object, kListO, number, change.tails[kListO]);
-  if (append_pair(kListSP, of_subject, at_subject, number, change.tails[kListSP])) {
-    store(all.summary[kSubjects], all.summary[kSubjects] + 1);
+  if (!waits) {
+    link(number, {from, to, all}, at_subject, change);
+  } else if (number - linked_ > kBehind) {
+    link_next();
+    const Triple& next = records.triples[number - kBehind / 2];
+    records.triples.prefetch(records.nodes[next.object].as_object.tail);
   }
-  const PairPlace at_object = place(kListPO, of_object, version);
-  if (append_pair(kListPO, of_object, at_object, number, change.tails[kListPO])) {
-    store(all.summary[kObjects], all.summary[kObjects] + 1);
-  }
-  change.pairs[kListSP] = at_subject.at;
-  change.pairs[kListPO] = at_object.at;
-  if (from.subject_is_crowded && to.object_is_crowded) append_between(number, version);
   store(records.triple_count, number);
   ++records.live_count;
   note_triple(change);
   return true;
 }
 
+std::size_t Writer::add(std::span<const Quad> quads, Version version) {
+  std::size_t count = 0;
+  for (const Quad& quad : quads) count += add(quad, version);
+  return count;
+}
+
+void Writer::show() {
+  catch_up();
+  shown_ = true;
+}
+
+// Each further run is farther away, so that they are few.
+void Writer::note_other(const Change& change) {
+  if (change_count_ > 0 && (*log_)[change_count_ - 1].kind == Change::kAddTriples) {
+    noted_ = noted_after_run_;
+    if (noted_after_run_ < UINT32_MAX / 2) noted_after_run_ *= 2;
+  }
+  note(change);
+}
+
 inline void Writer::note_triple(const Change& change) {
-  if (marked_ || noted_ > 0) {
+  if (notes_all()) {
     if (!marked_) --noted_;
     return note(change);
   }
@@ -210,40 +295,11 @@ inline void Writer::note_triple(const Change& change) {
       return;
     }
   }
-  // Each further run is farther away, so that they are few.
-  noted_ = noted_after_run_ *= 2;
   Change run{};
   run.kind = Change::kAddTriples;
   run.record = change.record;
   run.count = 1;
   note(run);
-}
-
-inline void Writer::expect_places(const Quad& quad) {
-  records.pairs[kListSP].prefetch(hash_pair(quad.subject.value, quad.predicate.value));
-  records.pairs[kListPO].prefetch(hash_pair(quad.predicate.value, quad.object.value));
-  __builtin_prefetch(&records.nodes.reserve(quad.object.value), 1);
-}
-
-inline void Writer::expect_tail(const Quad& quad) const {
-  records.triples.prefetch(records.nodes[quad.object.value].as_object.tail);
-}
-
-std::size_t Writer::add(std::span<const Quad> quads, Version version) {
-  // Steps ahead, some 30 ns each: memory out of the caches answers in 50 to 100 ns. What all quads
-  // of one subject share is near anyway; objects are what jumps about.
-  constexpr std::size_t kPlaces = 12, kTail = 6;
-  constexpr std::uint32_t kOutOfCaches = 1 << 13;  // triples
-  std::size_t count = 0, at = 0;
-  for (; records.triple_count < kOutOfCaches && at < quads.size(); ++at) {
-    count += add(quads[at], version);
-  }
-  for (const std::size_t begin = at; at < quads.size(); ++at) {
-    if (at + kPlaces < quads.size()) expect_places(quads[at + kPlaces]);
-    if (at >= begin + kPlaces - kTail && at + kTail < quads.size()) expect_tail(quads[at + kTail]);
-    count += add(quads[at], version);
-  }
-  return count;
 }
 
 inline std::uint32_t Writer::append_member(std::uint32_t graph_name, std::uint32_t member) {
@@ -279,7 +335,7 @@ void Writer::append_membership(std::uint32_t triple_number, std::uint32_t graph,
     store(records.memberships[last].next_of_triple, number);
     last = number;
   }
-  note(change);
+  note_other(change);
 }
 
 // The triple's and the graph's memberships are walked side by side, so the shorter list bounds the
@@ -316,6 +372,7 @@ bool Writer::find_membership(std::uint32_t triple_number, std::uint32_t graph_na
 }
 
 bool Writer::remove(const Quad& quad, Version version) {
+  catch_up();
   const std::uint32_t triple =
       records.find(quad.subject.value, quad.predicate.value, quad.object.value, version);
   std::uint32_t membership = 0;
@@ -334,7 +391,7 @@ void Writer::remove_membership(std::uint32_t number, std::uint32_t membership, V
   change.membership = membership;
   change.last = !records.still_there(triple, version);
   if (change.last) --records.live_count;
-  note(change);
+  note_other(change);
 }
 
 void Writer::clear(std::uint32_t name, Version version) {
@@ -368,7 +425,7 @@ void Writer::create_graph(std::uint32_t name, Version version) {
   change.kind = Change::kAddMark;
   change.record = mark_number;
   change.graph = number;
-  note(change);
+  note_other(change);
 }
 
 void Writer::drop_graph(std::uint32_t name, Version version) {
@@ -382,7 +439,7 @@ void Writer::drop_graph(std::uint32_t name, Version version) {
     Change change{};
     change.kind = Change::kRemoveMark;
     change.record = at;
-    note(change);
+    note_other(change);
   }
 }
 

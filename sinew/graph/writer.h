@@ -51,6 +51,8 @@ class Writer {
 
   // A new transaction.
   void start();
+  // From now on, somebody may look at what the transaction does while it goes on.
+  void show();
   std::size_t changes() const { return change_count_; }
   // For undo_to. From then on, every change is noted in full.
   std::size_t mark();
@@ -74,6 +76,11 @@ class Writer {
   // Taking that back walks the lists that it is in: they have at most so many triples in all for
   // each that was noted in full.
   static constexpr std::uint32_t kNotedAtLeast = 256, kTriplesForEachNoted = 64;
+  // Of a large store, most is out of the caches: above all tables, and what an object needs. So in
+  // a run of triples that nobody looks at yet, what a triple needs is only asked for, and it is put
+  // into the lists of its object and its pairs so many triples later, when that has come.
+  static constexpr std::uint32_t kBehind = 8;
+  static constexpr std::uint32_t kOutOfCaches = 1 << 14;  // triples
 
   struct PairKey {
     Records::Pair pair;
@@ -89,6 +96,21 @@ class Writer {
   // Whether the pair's list was empty before.
   bool append_pair(List list, const PairKey& key, const PairPlace& place, std::uint32_t triple,
                    std::uint32_t& tail_before);
+  // The records of a triple's terms.
+  struct Ends {
+    Node& subject;
+    Node& object;
+    Posting& predicate;
+  };
+  // Puts it into its lists SP, PO, O and OS.
+  void link(std::uint32_t triple, const Ends& ends, const PairPlace& at_subject, Change& change);
+  void link_next();
+  void catch_up() {
+    while (linked_ < records.triple_count) link_next();
+  }
+  // Whether the subject's few triples lie near, so that they are walked to find one.
+  bool is_near(const Node& subject) const;
+  std::uint32_t find_near(const Node& subject, const Quad& quad, Version version) const;
   void append_between(std::uint32_t triple, Version version);
   void make_crowded(Node& node, List list, Version version);
   // Adds the triple's object to the filter of its SP list.
@@ -117,17 +139,16 @@ class Writer {
   void undo(const Change& change);
   [[noreturn]] void refuse_full() const;
   [[noreturn]] void refuse_long() const;
-  // Asks for what adding the quad will need, so that it is there in time: the farther ahead, the
-  // less is known of it.
-  void expect_places(const Quad& quad);
-  void expect_tail(const Quad& quad) const;
   // To be called before a change, so that nothing can fail between it and its note.
   void prepare();
   void note(const Change& change) {
     (*log_)[change_count_++] = change;
     if (is_removal(change)) ++removal_count_;
   }
+  // Whether the next addition is noted in full.
+  bool notes_all() const { return marked_ || noted_ > 0; }
   void note_triple(const Change& change);
+  void note_other(const Change& change);
   static bool is_removal(const Change& change) {
     return change.kind == Change::kRemove || change.kind == Change::kRemoveMark;
   }
@@ -143,8 +164,9 @@ class Writer {
       std::make_unique<StableArray<Change, Fill::kRaw>>();
   std::uint32_t change_count_ = 0;
   std::uint32_t removal_count_ = 0;  // of these changes
-  bool marked_ = false;
-  std::uint32_t noted_ = 0;  // additions that are still noted in full, if there is no mark
+  bool marked_ = false, shown_ = false;
+  std::uint32_t linked_ = 0;  // the last triple that is in all its lists
+  std::uint32_t noted_ = 0;   // additions that are still noted in full, if there is no mark
   std::uint32_t noted_after_run_ = 0;
 };
 

@@ -6,6 +6,7 @@
 namespace sinew::graph {
 
 void Writer::finish(Version oldest) {
+  catch_up();
   for (std::uint32_t at = 0; removal_count_ > 0; ++at) {
     const Change& change = (*log_)[at];
     if (!is_removal(change)) continue;

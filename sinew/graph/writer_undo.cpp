@@ -6,18 +6,21 @@
 namespace sinew::graph {
 
 void Writer::start() {
-  marked_ = false;
+  marked_ = shown_ = false;
   noted_ = std::max(kNotedAtLeast, records.triple_count / kTriplesForEachNoted);
   noted_after_run_ = noted_;
 }
 
 std::size_t Writer::mark() {
+  catch_up();
   marked_ = true;
   return change_count_;
 }
 
 void Writer::undo_to(std::size_t mark) {
+  catch_up();
   while (change_count_ > mark) undo((*log_)[--change_count_]);
+  linked_ = records.triple_count;
 }
 
 void Writer::undo(const Change& change) {

@@ -25,7 +25,8 @@ Edit::Edit(std::shared_ptr<WorldImpl> world)
     : world_(std::move(world)),
       lock_(world_->editing),
       next_(world_->published()),
-      token_(fresh_token()) {}
+      token_(fresh_token()),
+      old_measurements_(next_.measurements.size()) {}
 
 Edit::~Edit() = default;
 
@@ -160,7 +161,7 @@ MeasurementId Edit::add_measurement(const MeasurementSpec& spec) {
 void Edit::set_value(MeasurementId measurement, Stamp stamp, std::span<const double> values) {
   const MeasurementRecord& record = alive(*world_, next_, measurement);
   std::vector<double> checked(values.begin(), values.end());
-  if (!touched_.contains({ElementKind::kMeasurement, measurement.index})) {
+  if (measurement.index < old_measurements_) {
     refuse(world_->family->names.text(record.name), "a first value for a measurement in use",
            "World::write");
   }

@@ -5,8 +5,7 @@
 
 #include <memory>
 #include <mutex>
-#include <set>
-#include <utility>
+#include <vector>
 
 #include "sinew/world/world.h"
 
@@ -51,7 +50,7 @@ class Edit {
   explicit Edit(std::shared_ptr<WorldImpl> world);
   Name new_name(std::string_view iri);
   void commit_keeping_lock();  // no other edit comes between; the edit's end lets the lock go
-  void touch(ElementKind kind, Index index) { touched_.emplace(kind, index); }
+  void touch(ElementKind kind, Index index) { touched_.push_back({kind, index}); }
   void unlink(Index relation, Index frame);
   RelationId attach_with(FrameId frame, FrameId parent, const Pose& pose, Stamp now,
                          std::string_view provenance);
@@ -60,7 +59,8 @@ class Edit {
   std::unique_lock<std::mutex> lock_;
   State next_;
   EditToken token_;
-  std::set<std::pair<ElementKind, Index>> touched_;
+  std::size_t old_measurements_;  // those with a higher number are this edit's own
+  std::vector<Element> touched_;  // some more than once
 };
 
 }  // namespace sinew::world

@@ -1,8 +1,8 @@
 // The inside of a world, for the module's own functions.
 //
 // Locks, in the order in which they are taken: `editing` (one structural edit, ordinary write,
-// clone or claim at a time), then `publishing` (the published state, a few instructions), then the
-// family's.
+// clone or claim at a time) or `packing` (of links), then `publishing` (the published state, a few
+// instructions), then the family's.
 #pragma once
 
 #include <algorithm>
@@ -68,6 +68,9 @@ struct WorldImpl {
   std::vector<WriterState*> writers;  // of the real-time handles
   WriteGuard guard;
   std::shared_ptr<BatchState> batch = std::make_shared<BatchState>(kBatchIdle);  // write_together
+  mutable std::mutex packing;
+  std::shared_ptr<const Links> links;  // of the structure's version `links_of`
+  std::uint64_t links_of = 0;
   std::unique_ptr<Symbols> symbols;          // the graph, once it is needed (symbols.h)
   std::optional<graph::Snapshot> inherited;  // of a clone: what the original\'s graph held
 

@@ -1,6 +1,6 @@
 // Which frames a state links by which relations, packed: each frame's links lie one behind the
 // other. Made once of a state, in one pass over it, for whoever walks all over its structure; a
-// state's own lists serve single steps.
+// state's own lists serve single steps. A world keeps those of its present state (World::links).
 #pragma once
 
 #include <cstddef>

@@ -6,6 +6,7 @@
 // Indices are never used again; what was removed stays as a dead record.
 #pragma once
 
+#include <compare>
 #include <limits>
 #include <memory>
 #include <string>
@@ -100,6 +101,7 @@ enum class ElementKind : std::uint8_t { kNothing, kFrame, kObject, kRelation, kM
 struct Element {
   ElementKind kind = ElementKind::kNothing;
   Index index = kNone;
+  friend auto operator<=>(const Element&, const Element&) = default;
 };
 
 struct State {

@@ -156,7 +156,9 @@ void Symbols::describe_all(const State& state) {
   transaction.commit();
 }
 
-void Symbols::update(const State& before, const State& after, const Touched& touched) {
+void Symbols::update(const State& before, const State& after, std::vector<Element> touched) {
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   std::vector<graph::Quad> old;
   std::vector<graph::Quad> now;
   for (const auto& [kind, index] : touched) {

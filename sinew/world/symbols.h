@@ -12,9 +12,7 @@
 #pragma once
 
 #include <memory>
-#include <set>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "sinew/graph/store.h"
@@ -29,9 +27,9 @@ struct Symbols {
   Symbols(std::string_view world_iri, const Names& names, const State& state,
           const graph::Snapshot* inherited);
 
-  using Touched = std::set<std::pair<ElementKind, Index>>;
-  // In one transaction: what was said of these elements goes, what is true of them now comes.
-  void update(const State& before, const State& after, const Touched& touched);
+  // In one transaction: what was said of these elements goes, what is true of them now comes. An
+  // element may be named more than once.
+  void update(const State& before, const State& after, std::vector<Element> touched);
 
   graph::Store store;
 

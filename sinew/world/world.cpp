@@ -5,6 +5,7 @@
 
 #include "sinew/world/edit.h"
 #include "sinew/world/impl.h"
+#include "sinew/world/links.h"
 #include "sinew/world/reading.h"
 #include "sinew/world/refuse.h"
 #include "sinew/world/symbols.h"
@@ -208,6 +209,17 @@ FrameId World::frame_of(ObjectId object) const {
   return {alive(*impl_, impl_->published(), object).frame};
 }
 State World::state() const { return impl_->published(); }
+std::shared_ptr<const Links> World::links() const {
+  WorldImpl& impl = *impl_;
+  const std::lock_guard lock(impl.packing);
+  // Asked first: a state that is newer than it is packed again next time.
+  const std::uint64_t version = structure_version();
+  if (!impl.links || impl.links_of != version) {
+    impl.links = std::make_shared<const Links>(impl.published());
+    impl.links_of = version;
+  }
+  return impl.links;
+}
 std::uint64_t World::structure_version() const {
   return impl_->structure.load(std::memory_order_acquire);
 }

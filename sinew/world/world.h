@@ -48,6 +48,7 @@ class Store;
 namespace sinew::world {
 
 class Edit;
+class Links;
 
 struct RelationSpec {
   std::string_view name;  // IRI
@@ -121,6 +122,10 @@ class World {
   const std::string& name(ObjectId id) const;
   FrameId frame_of(ObjectId object) const;
   State state() const;  // a version of the whole structure, for whoever wants to walk it; O(1)
+  // Which frames are linked by which relations, packed (links.h): made when it is first asked for
+  // after a structural edit, the same one as long as there is none. For walks all over the
+  // structure. Any thread; takes a lock.
+  std::shared_ptr<const Links> links() const;
   std::uint64_t structure_version() const;  // counts structural edits
 
   // ---- values ----

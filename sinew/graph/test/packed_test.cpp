@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
+
+#include "sinew/graph/store.h"
 
 namespace sinew::graph {
 namespace {
@@ -71,25 +75,63 @@ TEST(Packed, HoldsEachNodesEdgesInTheOrderInWhichTheyWereAdded) {
   }
 }
 
-TEST(Packed, KnowsNothingOfOtherNodesAndOtherPredicates) {
+TEST(Packed, KnowsNothingOfOtherNodes) {
   Random random(1);
   const Id a = random.terms[10], b = random.terms[20], p = random.terms[0];
   random.store.add({a, p, b});
-  Packed packed(random.store.snapshot());
-  EXPECT_EQ(packed.find(p, Direction::kOut), nullptr);
-  packed.add(p, Direction::kOut);
-  packed.add(p, Direction::kOut);
-  packed.add(random.terms[1], Direction::kIn);
-  const Adjacency& out = *packed.find(p, Direction::kOut);
-  EXPECT_EQ(packed.find(p, Direction::kIn), nullptr);
-  EXPECT_EQ(packed.view().packed(), &packed);
-  EXPECT_EQ(random.store.view().packed(), nullptr);
-  EXPECT_EQ(listed(out.of(a)), std::vector<Id>{b});
+  const auto out = random.store.edges(p, Direction::kOut);
+  EXPECT_EQ(listed(out->of(a)), std::vector<Id>{b});
   for (const std::uint32_t id : {0u, 1u, a.value - 1, a.value + 1, b.value, UINT32_MAX}) {
-    EXPECT_TRUE(out.of(Id{id}).empty()) << id;
+    EXPECT_TRUE(out->of(Id{id}).empty()) << id;
   }
-  EXPECT_TRUE(packed.find(random.terms[1], Direction::kIn)->of(a).empty());
+  EXPECT_TRUE(random.store.edges(random.terms[1], Direction::kIn)->of(a).empty());
   EXPECT_TRUE(Adjacency().of(a).empty());
+}
+
+TEST(Packed, AStoreKeepsThemAsLongAsNothingElseIsCommitted) {
+  Random random(1);
+  const Id a = random.terms[10], b = random.terms[20], p = random.terms[0];
+  random.store.add({a, p, b});
+  const auto out = random.store.edges(p, Direction::kOut),
+             in = random.store.edges(p, Direction::kIn);
+  EXPECT_EQ(random.store.edges(p, Direction::kOut), out);
+  EXPECT_EQ(listed(in->of(b)), std::vector<Id>{a});
+  {
+    Transaction transaction = random.store.begin();
+    transaction.add({b, p, a});
+    EXPECT_EQ(random.store.edges(p, Direction::kOut), out);
+  }
+  EXPECT_EQ(random.store.edges(p, Direction::kOut), out);
+  random.store.add({b, p, a});
+  EXPECT_EQ(listed(random.store.edges(p, Direction::kOut)->of(b)), std::vector<Id>{a});
+  EXPECT_TRUE(out->of(b).empty());
+  EXPECT_EQ(listed(random.store.edges({}, Direction::kIn)->of(a)), std::vector<Id>{b});
+  random.store.remove({a, p, b});
+  EXPECT_TRUE(random.store.edges(p, Direction::kIn)->of(b).empty());
+  // A copy without dead records has the same version.
+  const auto last = random.store.edges(p, Direction::kOut);
+  const auto of_clone = random.store.clone().edges(p, Direction::kOut);
+  EXPECT_EQ(listed(of_clone->of(b)), listed(last->of(b)));
+}
+
+TEST(Packed, AreAskedForByManyThreadsBesideAWriter) {
+  Random random(2);
+  random.change(200);
+  std::atomic<bool> done = false;
+  std::vector<std::thread> readers;
+  for (int i = 0; i < 3; ++i) {
+    readers.emplace_back([&] {
+      do {
+        const auto out = random.store.edges(random.terms[0], Direction::kOut);
+        std::size_t seen = 0;
+        out->visit([&](Id, std::span<const Id> linked) { seen += linked.size(); });
+        EXPECT_EQ(seen, out->size());
+      } while (!done);
+    });
+  }
+  for (int i = 0; i < 200; ++i) random.change(10);
+  done = true;
+  for (std::thread& reader : readers) reader.join();
 }
 
 TEST(Steps, LeadWhereTheViewLeads) {

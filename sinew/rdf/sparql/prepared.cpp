@@ -120,16 +120,6 @@ bool Prepared::ask(const graph::View& view, std::span<const Id> parameters) cons
   return evaluator->ask(view, parameters, data_->limits);
 }
 
-void Prepared::pack(graph::Packed& packed) const {
-  const plan::PathSteps& paths = data_->current.load()->plan->paths;
-  for (const plan::PathStep& step : paths.steps) {
-    if (step.chain == plan::kNoChain) continue;
-    for (const std::uint32_t part : plan::chain_of(step, paths)) {
-      packed.add(paths.steps[part].iri, plan::direction_of(paths.steps[part]));
-    }
-  }
-}
-
 std::string Prepared::explain(const graph::Terms& terms) const {
   return plan::explain(*data_->current.load()->plan, terms);
 }

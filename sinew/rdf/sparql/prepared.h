@@ -9,6 +9,9 @@
 // sub-selects. This is what synthesis, normalisation and the world model use; `engine.h` is the
 // general entry point (any query form, any result format).
 //
+// What closures of properties, (^a/b)+, lead to from a node is remembered as long as the same
+// version of the graph is asked, in memory that is set apart when the query first runs.
+//
 // The plan follows the graph: when the graph has grown or shrunk to a quarter or to four times its
 // size since it was planned, the next run plans anew.
 #pragma once
@@ -20,7 +23,6 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/graph/packed.h"
 #include "sinew/graph/store.h"
 #include "sinew/rdf/sparql/eval/function_ref.h"
 #include "sinew/rdf/sparql/syntax/limits.h"
@@ -53,9 +55,6 @@ class Prepared {
   bool ask(const graph::View& view, std::initializer_list<graph::Id> parameters) const {
     return ask(view, std::span(parameters.begin(), parameters.size()));
   }
-  // Packs the edges over which it walks in closures of properties, (^a/b)+: where it is run often
-  // on one version, on `packed.view()` such a walk takes half the time.
-  void pack(graph::Packed& packed) const;
   // The operators in their order, with the rows that the planner expects.
   std::string explain(const graph::Terms& terms) const;
 

@@ -73,6 +73,28 @@ TEST(Links, AreThoseOfTheStatesListsAfterAnyEdits) {
   }
 }
 
+TEST(Links, AWorldKeepsThemUntilItsStructureChanges) {
+  World world;
+  const FrameId a = world.add_frame("http://w/a"), b = world.add_frame("http://w/b");
+  const auto none = world.links();
+  EXPECT_EQ(none->size(), 0u);
+  const RelationId relation =
+      world.add_relation({.name = "http://w/r", .of = a, .with_respect_to = b});
+  const auto one = world.links();
+  EXPECT_EQ(one->size(), 2u);
+  ASSERT_EQ(one->of(a.index).size(), 1u);
+  EXPECT_EQ(one->of(a.index)[0].other, b.index);
+  const MeasurementId pose = world.add_measurement({.name = "http://w/m", .relation = relation});
+  const auto same = world.links();
+  world.write(pose, Stamp(std::chrono::seconds(1)), Pose{}, {.provenance = "http://w/p"});
+  EXPECT_EQ(world.links(), same);
+  const World clone = world.clone();
+  world.remove(relation);
+  EXPECT_EQ(world.links()->size(), 0u);
+  EXPECT_EQ(clone.links()->size(), 2u);
+  EXPECT_EQ(one->size(), 2u);
+}
+
 TEST(Links, OfAnEmptyWorldAreNone) {
   const World world;
   const Links links(world.state());

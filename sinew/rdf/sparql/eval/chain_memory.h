@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sinew/graph/terms.h"
+#include "sinew/rdf/sparql/eval/chain_lists.h"
 #include "sinew/rdf/sparql/plan/path.h"
 
 namespace sinew::rdf::sparql::eval {
@@ -55,6 +56,7 @@ struct ChainMemory {
   }
 
   std::array<ChainQueue, plan::kMaxChain> queues;
+  ChainLists lists;
 
  private:
   std::vector<std::uint32_t> cells_;  // by id: when it was reached last, and behind what

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "sinew/graph/packed.h"
 #include "sinew/graph/terms.h"
 #include "sinew/rdf/sparql/syntax/ast.h"
 
@@ -38,10 +37,6 @@ struct PathStep {
   bool walks_forward = false, walks_backward = false;
   std::vector<graph::Id> forward, backward;
 };
-
-inline graph::Direction direction_of(const PathStep& iri) {
-  return iri.inverse ? graph::Direction::kIn : graph::Direction::kOut;
-}
 
 // All paths of one plan.
 struct PathSteps {
