@@ -150,13 +150,6 @@ inline std::uint32_t Writer::find_near(const Node& subject, const Quad& quad,
   return 0;
 }
 
-// For the record of a triple that comes soon.
-inline void ask_ahead(const Triple* triple) {
-  constexpr std::uintptr_t kAhead = 16 * sizeof(Triple);
-  __builtin_prefetch(
-      reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(triple) + kAhead), 1);
-}
-
 // Precondition: all triples before it are linked.
 inline void Writer::link(std::uint32_t number, const Ends& ends, const PairPlace& at_subject,
                          Change& change) {
@@ -228,11 +221,13 @@ bool Writer::add(const Quad& quad, Version version) {
     return true;
   }
 
-  Change change{};
+  // Noted where it stays: prepare() has made room.
+  Change unused;
+  Change& change = notes_all() ? (*log_)[change_count_] : unused;
+  change = {};
   change.kind = Change::kAddTriple;
   change.record = number;
   Triple& triple = records.triples.reserve(number);
-  ask_ahead(&triple);
   store(triple.added, version);
   store(triple.removed, kNever);
   triple.subject = subject;
@@ -259,7 +254,7 @@ bool Writer::add(const Quad& quad, Version version) {
   }
   store(records.triple_count, number);
   ++records.live_count;
-  note_triple(change);
+  note_triple(number);
   return true;
 }
 
@@ -283,10 +278,11 @@ void Writer::note_other(const Change& change) {
   note(change);
 }
 
-inline void Writer::note_triple(const Change& change) {
+inline void Writer::note_triple(std::uint32_t number) {
   if (notes_all()) {
     if (!marked_) --noted_;
-    return note(change);
+    ++change_count_;  // the note is there
+    return;
   }
   if (change_count_ > 0) {
     Change& last = (*log_)[change_count_ - 1];
@@ -297,7 +293,7 @@ inline void Writer::note_triple(const Change& change) {
   }
   Change run{};
   run.kind = Change::kAddTriples;
-  run.record = change.record;
+  run.record = number;
   run.count = 1;
   note(run);
 }

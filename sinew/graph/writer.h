@@ -147,7 +147,7 @@ class Writer {
   }
   // Whether the next addition is noted in full.
   bool notes_all() const { return marked_ || noted_ > 0; }
-  void note_triple(const Change& change);
+  void note_triple(std::uint32_t number);
   void note_other(const Change& change);
   static bool is_removal(const Change& change) {
     return change.kind == Change::kRemove || change.kind == Change::kRemoveMark;

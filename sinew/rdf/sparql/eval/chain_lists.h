@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,7 @@ class ChainLists {
  public:
   // A node that leads to more, or by more ways, is left to the walk itself.
   static constexpr std::size_t kMostNodes = 32, kMostWays = 128;
-  static constexpr std::size_t kRoom = std::size_t{1} << 16;       // ids of all nodes together
+  static constexpr std::size_t kRoom = std::size_t{1} << 14;       // ids of all nodes together
   static constexpr std::size_t kMostTerms = std::size_t{1} << 18;  // a larger dictionary: nothing
 
   // Ids are at most `terms`. What was remembered is kept if the stamp is the same; nothing is, and
@@ -26,7 +27,7 @@ class ChainLists {
     is_on_ = stamp && terms <= kMostTerms;
     if (!is_on_) return;
     if (cells_.size() <= terms) cells_.resize(terms + 1 + terms / 2);
-    if (room_.empty()) room_.resize(kRoom);
+    if (!room_) room_ = std::make_unique_for_overwrite<graph::Id[]>(kRoom);
     if (stamp == stamp_) return;
     stamp_ = stamp;
     used_ = 0;
@@ -42,14 +43,14 @@ class ChainLists {
     const Cell& cell = cells_[node.value];
     if (cell.epoch != epoch_) return used_ + kMostNodes > kRoom ? Known::kTooLong : Known::kNothing;
     if (cell.count == kTooMany) return Known::kTooLong;
-    list = {room_.data() + cell.begin, cell.count};
+    list = {room_.get() + cell.begin, cell.count};
     return Known::kList;
   }
   // Precondition: `find` said that nothing is known of the node. At most kMostNodes.
   std::span<const graph::Id> remember(graph::Id node, std::span<const graph::Id> list) {
     cells_[node.value] = {epoch_, static_cast<std::uint16_t>(used_),
                           static_cast<std::uint16_t>(list.size())};
-    graph::Id* const into = room_.data() + used_;
+    graph::Id* const into = room_.get() + used_;
     for (std::size_t i = 0; i < list.size(); ++i) into[i] = list[i];
     used_ += list.size();
     return {into, list.size()};
@@ -69,7 +70,7 @@ class ChainLists {
   std::uint32_t epoch_ = 0;
   std::size_t used_ = 0;
   std::vector<Cell> cells_;  // by id
-  std::vector<graph::Id> room_;
+  std::unique_ptr<graph::Id[]> room_;
 };
 
 }  // namespace sinew::rdf::sparql::eval
