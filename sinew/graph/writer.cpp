@@ -151,16 +151,14 @@ inline std::uint32_t Writer::find_near(const Node& subject, const Quad& quad,
 }
 
 // Precondition: all triples before it are linked.
-inline void Writer::link(std::uint32_t number, const Ends& ends, const PairPlace& at_subject,
-                         Change& change) {
+inline void Writer::link(std::uint32_t number, const Ends& ends, const PairKey& of_subject,
+                         const PairPlace& at_subject, const PairKey& of_object, Change& change) {
   const Triple& triple = records.triples[number];
   const auto& [subject, object, predicate] = ends;
   if (object.as_object.count >= kUncrowded && !object.object_is_crowded) {
     make_crowded(object, kListO, triple.added);
   }
   append(object.as_object, kListO, number, change.tails[kListO]);
-  const PairKey of_subject = key({triple.subject, triple.predicate});
-  const PairKey of_object = key({triple.predicate, triple.object});
   if (append_pair(kListSP, of_subject, at_subject, number, change.tails[kListSP])) {
     store(predicate.summary[kSubjects], predicate.summary[kSubjects] + 1);
   }
@@ -177,11 +175,12 @@ inline void Writer::link(std::uint32_t number, const Ends& ends, const PairPlace
 void Writer::link_next() {
   const std::uint32_t number = linked_ + 1;
   const Triple& triple = records.triples[number];
+  const Waiting& waiting = waiting_[number & kWaitingMask];
+  const PairKey of_subject{{triple.subject, triple.predicate}, waiting.pair_hashes[kListSP]};
+  const PairKey of_object{{triple.predicate, triple.object}, waiting.pair_hashes[kListPO]};
   Change unused;
-  link(number,
-       {records.nodes[triple.subject], records.nodes[triple.object],
-        records.postings[records.nodes[triple.predicate].as_predicate]},
-       place(kListSP, key({triple.subject, triple.predicate}), triple.added), unused);
+  link(number, {*waiting.subject, *waiting.object, *waiting.predicate}, of_subject,
+       place(kListSP, of_subject, triple.added), of_object, unused);
 }
 
 bool Writer::add(const Quad& quad, Version version) {
@@ -191,9 +190,9 @@ bool Writer::add(const Quad& quad, Version version) {
   prepare();
   // What will be needed from far away is asked for first. A term of a triple that is there already
   // has its record, so making it here is not in vain.
-  const PairKey of_subject = key({subject, predicate});
+  const PairKey of_subject = key({subject, predicate}), of_object = key({predicate, object});
   records.pairs[kListSP].prefetch(of_subject.hash);
-  records.pairs[kListPO].prefetch(hash_pair(predicate, object));
+  records.pairs[kListPO].prefetch(of_object.hash);
   Node& to = records.nodes.reserve(object);
   __builtin_prefetch(&to, 1);
   Node& from = records.nodes.reserve(subject);
@@ -246,11 +245,14 @@ bool Writer::add(const Quad& quad, Version version) {
   append(from.as_subject, kListS, number, change.tails[kListS]);
   append(all.chain, kListP, number, change.tails[kListP]);
   if (!waits) {
-    link(number, {from, to, all}, at_subject, change);
-  } else if (number - linked_ > kBehind) {
-    link_next();
-    const Triple& next = records.triples[number - kBehind / 2];
-    records.triples.prefetch(records.nodes[next.object].as_object.tail);
+    link(number, {from, to, all}, of_subject, at_subject, of_object, change);
+  } else {
+    waiting_[number & kWaitingMask] = {&from, &to, &all, {of_subject.hash, of_object.hash}};
+    if (number - linked_ > kBehind) {
+      link_next();
+      const Waiting& later = waiting_[(number - kBehind / 2) & kWaitingMask];
+      records.triples.prefetch(later.object->as_object.tail);
+    }
   }
   store(records.triple_count, number);
   ++records.live_count;

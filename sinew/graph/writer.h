@@ -102,8 +102,16 @@ class Writer {
     Node& object;
     Posting& predicate;
   };
+  // What a triple that waits to be linked has asked for.
+  struct Waiting {
+    Node* subject;
+    Node* object;
+    Posting* predicate;
+    std::uint32_t pair_hashes[2];  // kListSP, kListPO
+  };
   // Puts it into its lists SP, PO, O and OS.
-  void link(std::uint32_t triple, const Ends& ends, const PairPlace& at_subject, Change& change);
+  void link(std::uint32_t triple, const Ends& ends, const PairKey& of_subject,
+            const PairPlace& at_subject, const PairKey& of_object, Change& change);
   void link_next();
   void catch_up() {
     while (linked_ < records.triple_count) link_next();
@@ -166,7 +174,10 @@ class Writer {
   std::uint32_t removal_count_ = 0;  // of these changes
   bool marked_ = false, shown_ = false;
   std::uint32_t linked_ = 0;  // the last triple that is in all its lists
-  std::uint32_t noted_ = 0;   // additions that are still noted in full, if there is no mark
+  static constexpr std::uint32_t kWaitingMask = 15;
+  static_assert(kBehind < kWaitingMask);
+  Waiting waiting_[kWaitingMask + 1] = {};  // of those after it, by number
+  std::uint32_t noted_ = 0;  // additions that are still noted in full, if there is no mark
   std::uint32_t noted_after_run_ = 0;
 };
 
