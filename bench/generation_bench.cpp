@@ -98,8 +98,15 @@ void row(const test::Robot& robot, const std::string& solver, bool floating) {
     if (s != kWrite) to_code += times.ms[s];
   }
   std::printf("| %s/%s%s", solver.c_str(), robot.name.c_str(), floating ? " floating" : "");
-  for (const double ms : times.ms) std::printf(" | %.2f", ms);
-  std::printf(" | %.1f | %.1f |\n", to_c, to_code);
+  const bool jit = backend::jit_available();
+  for (std::size_t s = 0; s < kStages; ++s) {
+    if (s == kJit && !jit) {
+      std::printf(" | –");
+    } else {
+      std::printf(" | %.2f", times.ms[s]);
+    }
+  }
+  std::printf(jit ? " | %.1f | %.1f |\n" : " | %.1f | – |\n", to_c, to_code);
 }
 
 }  // namespace

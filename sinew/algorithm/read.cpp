@@ -15,12 +15,15 @@ using graph::Id;
 using graph::Quad;
 using graph::View;
 
-// The terms of an algorithm that are there; none is added by reading.
+// The terms of an algorithm that are there; none is added by reading, so each is looked for once.
 struct Vocabulary {
   explicit Vocabulary(const graph::Terms& terms) : terms(terms) {}
 
+  // Both have to be texts that stay: literals, or names of tables.
   Id operator()(std::string_view space, std::string_view name) const {
-    return terms.find_iri(std::string(space) + std::string(name));
+    const auto [known, fresh] = found.try_emplace({space.data(), name.data()});
+    if (fresh) known->second = terms.find_iri(std::string(space) + std::string(name));
+    return known->second;
   }
   Id sa(std::string_view name) const { return (*this)(kAlgorithmNamespace, name); }
   Id rdf(std::string_view name) const {
@@ -28,6 +31,14 @@ struct Vocabulary {
   }
 
   const graph::Terms& terms;
+
+ private:
+  struct HashOfPlaces {
+    std::size_t operator()(const std::pair<const char*, const char*>& places) const {
+      return std::hash<const char*>()(places.first) * 31 + std::hash<const char*>()(places.second);
+    }
+  };
+  mutable std::unordered_map<std::pair<const char*, const char*>, Id, HashOfPlaces> found;
 };
 
 class Reader {
@@ -78,9 +89,16 @@ class Reader {
 
   // The one object, or null; two are an error.
   Id one(Id subject, Id predicate, std::string_view what) {
-    const std::vector<Id> found = objects(subject, predicate);
-    if (found.size() > 1) error(subject, fmt::format("has two values of {}", what), "state one");
-    return found.empty() ? Id{} : found.front();
+    Id first;
+    bool more = false;
+    if (!predicate) return first;
+    view_.match_in(subject, predicate, {}, result_.id, [&](const Quad& quad) {
+      more = static_cast<bool>(first);
+      if (!more) first = quad.object;
+      return !more;
+    });
+    if (more) error(subject, fmt::format("has two values of {}", what), "state one");
+    return first;
   }
 
   std::vector<Id> list(Id owner, Id head) {
@@ -248,7 +266,9 @@ class Reader {
     Closure closure;
     closure.id = id;
     for (const Id type : objects(id, type_)) {
-      if (const Operator* op = find_operator_by_iri(terms_.text(type))) closure.op = op;
+      const auto [known, fresh] = operators_.try_emplace(type);
+      if (fresh) known->second = find_operator_by_iri(terms_.text(type));
+      if (known->second != nullptr) closure.op = known->second;
     }
     if (closure.op == nullptr) {
       const std::vector<Id> types = objects(id, type_);
@@ -260,7 +280,7 @@ class Reader {
     }
     for (const Port& port : closure.op->ports) {
       std::vector<Id> connected;
-      if (const Id property = terms_.find_iri(port.iri)) {
+      if (const Id property = property_of(port)) {
         connected = objects(id, property);
         if (port.many && connected.size() == 1) connected = list(id, connected.front());
       }
@@ -272,6 +292,12 @@ class Reader {
     if (closure.op->external) read_properties(closure);
     closures_.emplace(id, static_cast<std::uint32_t>(result_.closures.size()));
     result_.closures.push_back(std::move(closure));
+  }
+
+  Id property_of(const Port& port) {
+    const auto [known, fresh] = properties_.try_emplace(&port);
+    if (fresh) known->second = terms_.find_iri(port.iri);
+    return known->second;
   }
 
   // Everything that is said of an external closure beside its ports. A list is its numbers or
@@ -361,6 +387,8 @@ class Reader {
   Id type_, first_, rest_, nil_;
   Algorithm result_;
   std::unordered_map<Id, std::uint32_t> blocks_, closures_;
+  std::unordered_map<Id, const Operator*> operators_;  // by type
+  std::unordered_map<const Port*, Id> properties_;     // that connect to a port
 };
 
 }  // namespace

@@ -1,35 +1,34 @@
-#include <nlohmann/json.hpp>
-
 #include "sinew/backend/c_parts.h"
+#include "sinew/backend/json_text.h"
 
 namespace sinew::backend {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json slots(const program::Program& program, const std::vector<program::Slot>& slots) {
-  Json list = Json::array();
+void write_slots(JsonText& json, std::string_view name, const program::Program& program,
+                 const std::vector<program::Slot>& slots) {
+  json.key(name).begin_array();
   for (const program::Slot& slot : slots) {
     const program::Variable& v = program.variables[slot.variable];
-    Json item = {{"name", v.name},         {"iri", v.represents}, {"offset", slot.offset},
-                 {"size", v.size},         {"unit", v.unit},      {"frame", v.frame},
-                 {"quantity", v.quantity}, {"data", v.iri}};
-    if (v.role == program::Role::kState) item["value"] = v.value;
-    list.push_back(std::move(item));
+    json.begin_object().member("name", v.name).member("iri", v.represents);
+    json.member("offset", slot.offset).member("size", v.size).member("unit", v.unit);
+    json.member("frame", v.frame).member("quantity", v.quantity).member("data", v.iri);
+    if (v.role == program::Role::kState) json.member("value", v.value);
+    json.end_object();
   }
-  return list;
+  json.end_array();
 }
 
 // Rows and columns are named as the columns of a table are (NAME, or NAME[k] of several numbers);
 // an entry is [row, column, offset in the outputs]. Those that are missing are zero in every state.
-Json derivatives(const program::Program& program, const program::Interface& interface) {
+void write_derivatives(JsonText& json, const program::Program& program,
+                       const program::Interface& interface) {
   std::vector<std::uint32_t> offset(program.variables.size());
   for (const program::Slot& slot : interface.outputs) offset[slot.variable] = slot.offset;
-  Json list = Json::array();
+  json.key("derivatives").begin_array();
   for (const program::Derivative& derivative : program.derivatives) {
     std::vector<std::uint32_t> first(program.variables.size());
     const auto names = [&](const std::vector<std::uint32_t>& variables) {
-      Json result = Json::array();
+      std::vector<std::string> result;
       for (const std::uint32_t variable : variables) {
         const program::Variable& v = program.variables[variable];
         first[variable] = static_cast<std::uint32_t>(result.size());
@@ -38,22 +37,22 @@ Json derivatives(const program::Program& program, const program::Interface& inte
       }
       return result;
     };
-    Json rows = names(derivative.of), columns = names(derivative.by), entries = Json::array();
+    json.begin_object().member("name", derivative.name);
+    json.member("rows", names(derivative.of)).member("columns", names(derivative.by));
+    json.key("entries").begin_array();
     for (const program::DerivativeEntry& entry : derivative.entries) {
-      entries.push_back({first[entry.of] + entry.of_number, first[entry.by] + entry.by_number,
-                         offset[entry.variable]});
+      json.begin_array().value(first[entry.of] + entry.of_number);
+      json.value(first[entry.by] + entry.by_number).value(offset[entry.variable]).end_array();
     }
-    list.push_back({{"name", derivative.name},
-                    {"rows", std::move(rows)},
-                    {"columns", std::move(columns)},
-                    {"entries", std::move(entries)}});
+    json.end_array().end_object();
   }
-  return list;
+  json.end_array();
 }
 
-Json operation_counts(const program::OperationCount& n) {
-  return {{"add", n.add},   {"multiply", n.multiply}, {"divide", n.divide},
-          {"sqrt", n.sqrt}, {"sincos", n.sincos},     {"select", n.select}};
+void write_operations(JsonText& json, std::string_view name, const program::OperationCount& n) {
+  json.key(name).begin_object().member("add", n.add).member("multiply", n.multiply);
+  json.member("divide", n.divide).member("sqrt", n.sqrt).member("sincos", n.sincos);
+  json.member("select", n.select).end_object();
 }
 
 const char* language_name(Language language) {
@@ -66,61 +65,49 @@ std::string sidecar(const program::ScalarProgram& scalar, const program::Interfa
                     const COptions& options, const GeneratedCode& counts,
                     const std::vector<LineOrigin>& origins) {
   const program::Program& program = scalar.program;
-  Json constants = Json::array();
+  JsonText json;
+  json.begin_object().member("sinew-generated", 1).member("name", options.name);
+  json.member("style", options.style == Style::kFlat ? "flat" : "readable");
+  json.member("language", language_name(options.language));
+  json.member("scalar", options.scalar == Scalar::kFloat ? "float" : "double");
+  json.member("trigonometry", options.trigonometry == Trigonometry::kSleef ? "sleef" : "own");
+  json.member("source", options.source).member("algorithm", program.iri);
+  json.member("in-size", interface.in_size).member("out-size", interface.out_size);
+  json.member("state-size", interface.state_size);
+  write_slots(json, "inputs", program, interface.inputs);
+  write_slots(json, "outputs", program, interface.outputs);
+  write_slots(json, "states", program, interface.states);
+  write_derivatives(json, program, interface);
+  json.key("constants").begin_array();
   for (const program::Variable& v : program.variables) {
     if (v.role != program::Role::kConstant) continue;
-    constants.push_back({{"name", v.name},
-                         {"iri", v.represents},
-                         {"unit", v.unit},
-                         {"frame", v.frame},
-                         {"value", v.value}});
+    json.begin_object().member("name", v.name).member("iri", v.represents);
+    json.member("unit", v.unit).member("frame", v.frame).member("value", v.value).end_object();
   }
-  Json snaps = Json::array();
+  json.end_array().key("snapped").begin_array();
   for (const program::SnappedConstant& s : scalar.snapped) {
-    snaps.push_back({{"name", program.variables[s.variable].name},
-                     {"number", s.number},
-                     {"from", s.from},
-                     {"to", s.to}});
+    json.begin_object().member("name", program.variables[s.variable].name);
+    json.member("number", s.number).member("from", s.from).member("to", s.to).end_object();
   }
-  Json closures = Json::array();
+  json.end_array();
+  write_operations(json, "operations", counts.operations);
+  json.key("closures").begin_array();
   for (const program::Closure& c : program.closures) {
-    closures.push_back(
-        {{"operation", c.operation}, {"iri", c.iri}, {"step", c.step}, {"about", c.about}});
+    json.begin_object().member("operation", c.operation).member("iri", c.iri);
+    json.member("step", c.step).member("about", c.about).end_object();
   }
-  Json lines = Json::array();
-  for (const LineOrigin& origin : origins) {
-    lines.push_back(Json::array({origin.line, origin.closure}));
-  }
-  Json document = {{"sinew-generated", 1},
-                   {"name", options.name},
-                   {"style", options.style == Style::kFlat ? "flat" : "readable"},
-                   {"language", language_name(options.language)},
-                   {"scalar", options.scalar == Scalar::kFloat ? "float" : "double"},
-                   {"trigonometry", options.trigonometry == Trigonometry::kSleef ? "sleef" : "own"},
-                   {"source", options.source},
-                   {"algorithm", program.iri},
-                   {"in-size", interface.in_size},
-                   {"out-size", interface.out_size},
-                   {"state-size", interface.state_size},
-                   {"inputs", slots(program, interface.inputs)},
-                   {"outputs", slots(program, interface.outputs)},
-                   {"states", slots(program, interface.states)},
-                   {"derivatives", derivatives(program, interface)},
-                   {"constants", std::move(constants)},
-                   {"snapped", std::move(snaps)},
-                   {"operations", operation_counts(counts.operations)},
-                   {"closures", std::move(closures)},
-                   {"lines", std::move(lines)}};
-  if (counts.with_limbs) {
-    document["operations-with-limbs"] = operation_counts(*counts.with_limbs);
-  }
+  json.end_array().key("lines").begin_array();
+  for (const LineOrigin& origin : origins)
+    json.begin_array().value(origin.line).value(origin.closure).end_array();
+  json.end_array();
+  if (counts.with_limbs) write_operations(json, "operations-with-limbs", *counts.with_limbs);
   if (!options.partial.empty()) {
-    document["held-size"] = scalar.update.results.size();
-    document["slow"] = options.partial.slow;
-    document["held"] = options.partial.held;
-    document["update-operations"] = operation_counts(counts.update);
+    json.member("held-size", scalar.update.results.size());
+    json.member("slow", options.partial.slow).member("held", options.partial.held);
+    write_operations(json, "update-operations", counts.update);
   }
-  return document.dump() + "\n";
+  json.end_object();
+  return json.take() + "\n";
 }
 
 }  // namespace sinew::backend

@@ -5,6 +5,11 @@
 #include <cstddef>
 #include <cstring>
 
+#if defined(__x86_64__)
+#include <cpuid.h>
+#include <immintrin.h>
+#endif
+
 namespace sinew::graph {
 namespace {
 
@@ -36,13 +41,72 @@ void absorb(std::array<std::uint32_t, 5>& state, const std::uint8_t* block) {
   state[0] += a, state[1] += b, state[2] += c, state[3] += d, state[4] += e;
 }
 
-}  // namespace
+#if defined(__x86_64__)
+// The same by the processor's own instructions, a fifth of the time: four rounds at once. The words
+// of a vector stand in reverse order.
+__attribute__((target("sha,sse4.1"))) void absorb_by_processor(std::array<std::uint32_t, 5>& state,
+                                                               const std::uint8_t* block) {
+  const __m128i reverse = _mm_set_epi64x(0x0001020304050607, 0x08090a0b0c0d0e0f);
+  __m128i w[20];
+  for (std::size_t g = 0; g < 4; ++g) {
+    __m128i words;
+    std::memcpy(&words, block + 16 * g, sizeof words);
+    w[g] = _mm_shuffle_epi8(words, reverse);
+  }
+  for (std::size_t g = 4; g < 20; ++g) {
+    const __m128i older = _mm_xor_si128(_mm_sha1msg1_epu32(w[g - 4], w[g - 3]), w[g - 2]);
+    w[g] = _mm_sha1msg2_epu32(older, w[g - 1]);
+  }
+  __m128i abcd;
+  std::memcpy(&abcd, state.data(), sizeof abcd);
+  abcd = _mm_shuffle_epi32(abcd, 0x1b);
+  const __m128i abcd_before = abcd;
+  const __m128i e_before = _mm_set_epi32(static_cast<int>(state[4]), 0, 0, 0);
+  __m128i e = _mm_add_epi32(e_before, w[0]);
+  for (std::size_t g = 0; g < 20; ++g) {
+    const __m128i previous = abcd;
+    switch (g / 5) {  // the function of the rounds is part of the instruction
+      case 0:
+        abcd = _mm_sha1rnds4_epu32(abcd, e, 0);
+        break;
+      case 1:
+        abcd = _mm_sha1rnds4_epu32(abcd, e, 1);
+        break;
+      case 2:
+        abcd = _mm_sha1rnds4_epu32(abcd, e, 2);
+        break;
+      default:
+        abcd = _mm_sha1rnds4_epu32(abcd, e, 3);
+    }
+    e = _mm_sha1nexte_epu32(previous, g < 19 ? w[g + 1] : e_before);
+  }
+  abcd = _mm_shuffle_epi32(_mm_add_epi32(abcd, abcd_before), 0x1b);
+  std::memcpy(state.data(), &abcd, sizeof abcd);
+  state[4] = static_cast<std::uint32_t>(_mm_extract_epi32(e, 3));
+}
 
-Sha1Digest sha1(std::string_view message) {
+bool processor_has_sha() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c & bit_SSE4_1) == 0) return false;
+  constexpr unsigned kSha = 1U << 29U;  // leaf 7, EBX
+  return __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0 && (b & kSha) != 0;
+}
+#endif
+
+using Absorb = void (*)(std::array<std::uint32_t, 5>&, const std::uint8_t*);
+
+Absorb fastest_absorb() {
+#if defined(__x86_64__)
+  if (processor_has_sha()) return absorb_by_processor;
+#endif
+  return absorb;
+}
+
+Sha1Digest sha1_by(Absorb absorb_block, std::string_view message) {
   std::array<std::uint32_t, 5> state = {0x67452301, 0xefcdab89, 0x98badcfe, 0x10325476, 0xc3d2e1f0};
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(message.data());
   std::size_t left = message.size();
-  for (; left >= 64; left -= 64, bytes += 64) absorb(state, bytes);
+  for (; left >= 64; left -= 64, bytes += 64) absorb_block(state, bytes);
 
   // Padding: one bit, zeros, and the length in bits in the last 8 bytes.
   std::array<std::uint8_t, 128> tail = {};
@@ -53,7 +117,7 @@ Sha1Digest sha1(std::string_view message) {
   for (std::size_t i = 0; i < 8; ++i) {
     tail[size - 1 - i] = static_cast<std::uint8_t>(bits >> (8 * i));
   }
-  for (std::size_t at = 0; at < size; at += 64) absorb(state, tail.data() + at);
+  for (std::size_t at = 0; at < size; at += 64) absorb_block(state, tail.data() + at);
 
   Sha1Digest digest;
   for (std::size_t i = 0; i < digest.size(); ++i) {
@@ -61,6 +125,15 @@ Sha1Digest sha1(std::string_view message) {
   }
   return digest;
 }
+
+}  // namespace
+
+Sha1Digest sha1(std::string_view message) {
+  static const Absorb fastest = fastest_absorb();
+  return sha1_by(fastest, message);
+}
+
+Sha1Digest sha1_portable(std::string_view message) { return sha1_by(absorb, message); }
 
 Uuid name_based_uuid(const Uuid& name_space, std::string_view name) {
   std::string message(name_space.begin(), name_space.end());

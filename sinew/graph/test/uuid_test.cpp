@@ -24,6 +24,15 @@ TEST(Sha1, AgreesWithTheExamplesOfFips180) {
   EXPECT_EQ(hex(sha1(std::string(1'000'000, 'a'))), "34aa973cd4c4daa4f61eeb2bdbad27316534016f");
 }
 
+TEST(Sha1, IsTheSameByTheProcessorsInstructionsAndWithoutThem) {
+  std::string message;
+  for (int length = 0; length < 300; ++length) {
+    EXPECT_EQ(hex(sha1(message)), hex(sha1_portable(message))) << length;
+    message += static_cast<char>(length * 7 + 1);
+  }
+  EXPECT_EQ(hex(sha1_portable("abc")), "a9993e364706816aba3e25717850c26c9cd0d89d");
+}
+
 TEST(Uuid, AgreesWithTheExampleOfRfc9562) {
   // Appendix A.4: version 5 of "www.example.com" in the namespace of domain names.
   constexpr Uuid kDomains = {0x6b, 0xa7, 0xb8, 0x10, 0x9d, 0xad, 0x11, 0xd1,

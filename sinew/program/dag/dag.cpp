@@ -14,14 +14,19 @@ constexpr std::uint64_t kMix =
     0x9e3779b97f4a7c15ULL;  // 2^64 / golden ratio: spreads consecutive keys
 
 std::uint64_t hash(const Node& node) {
-  std::uint64_t h = static_cast<std::uint64_t>(node.op);
-  for (const std::uint64_t part :
-       {std::uint64_t{node.a.bits}, std::uint64_t{node.b.bits}, std::uint64_t{node.c.bits},
-        std::uint64_t{node.index}, std::bit_cast<std::uint64_t>(node.value)}) {
-    h = (h ^ part) * kMix;
-    h ^= h >> 29U;
-  }
-  return h;
+  const std::uint64_t operands = std::uint64_t{node.a.bits} << 32U | node.b.bits;
+  const std::uint64_t rest = std::uint64_t{node.c.bits ^ node.index} << 8U;
+  std::uint64_t h = (operands ^ std::bit_cast<std::uint64_t>(node.value)) * kMix;
+  h = (h ^ h >> 32U ^ rest ^ static_cast<std::uint64_t>(node.op)) * kMix;
+  return h ^ h >> 32U;
+}
+
+// A place of the table.
+constexpr unsigned kNodeBits = 24;
+constexpr std::uint32_t kNodeMask = (1U << kNodeBits) - 1;
+static_assert(Dag::kMaximumNodes <= kNodeMask);
+std::uint32_t entry(std::uint32_t node, std::uint64_t hash) {
+  return static_cast<std::uint32_t>(hash >> 56U) << kNodeBits | (node + 1);
 }
 
 bool same(const Node& x, const Node& y) {
@@ -45,18 +50,23 @@ void Dag::rehash(std::size_t size) {
   table_.assign(size, 0);
   const std::uint64_t mask = table_.size() - 1;
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-    std::uint64_t at = hash(nodes_[i]) & mask;
+    const std::uint64_t h = hash(nodes_[i]);
+    std::uint64_t at = h & mask;
     while (table_[at] != 0) at = (at + 1) & mask;
-    table_[at] = i + 1;
+    table_[at] = entry(i, h);
   }
 }
 
 Ref Dag::intern(Node node) {
   const std::uint64_t mask = table_.size() - 1;
-  std::uint64_t at = hash(node) & mask;
+  const std::uint64_t h = hash(node);
+  std::uint64_t at = h & mask;
   while (table_[at] != 0) {
-    const std::uint32_t found = table_[at] - 1;
-    if (same(nodes_[found], node)) return Ref::of(found);
+    // Nodes whose hashes differ in the bits that are kept need not be looked at.
+    if (table_[at] >> kNodeBits == h >> 56U) {
+      const std::uint32_t found = (table_[at] & kNodeMask) - 1;
+      if (same(nodes_[found], node)) return Ref::of(found);
+    }
     at = (at + 1) & mask;
   }
   if (nodes_.size() >= kMaximumNodes) {
@@ -71,7 +81,7 @@ Ref Dag::intern(Node node) {
   node.origin = arity(node.op) == 0 ? kNoOrigin : origin_;
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back(node);
-  table_[at] = index + 1;
+  table_[at] = entry(index, h);
   if (nodes_.size() * 2 > table_.size()) rehash(table_.size() * 2);
   return Ref::of(index);
 }
@@ -79,15 +89,6 @@ Ref Dag::intern(Node node) {
 double Dag::sum_of_constants(double x, double y) {
   const double sum = x + y;
   return std::abs(sum) <= kCancellation * std::fmax(std::abs(x), std::abs(y)) ? 0.0 : sum;
-}
-
-bool Dag::is_constant(Ref ref, double value) const {
-  return is_constant(ref) && constant_value(ref) == value;
-}
-
-double Dag::constant_value(Ref ref) const {
-  const double value = node(ref).value;
-  return ref.negative() ? -value : value;
 }
 
 Ref Dag::constant(double value) {

@@ -76,7 +76,7 @@ constexpr int arity(Op op) {
 
 class Dag {
  public:
-  static constexpr std::uint32_t kMaximumNodes = 1U << 24U;  // beyond it: Error
+  static constexpr std::uint32_t kMaximumNodes = (1U << 24U) - 1;  // beyond it: Error
   // A sum of constants smaller than this share of its largest term is rounding noise and becomes
   // zero.
   static constexpr double kCancellation = 1e-13;
@@ -110,15 +110,21 @@ class Dag {
   const Node& node(std::uint32_t index) const { return nodes_[index]; }
   std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
   bool is_constant(Ref ref) const { return node(ref).op == Op::kConstant; }
-  bool is_constant(Ref ref, double value) const;
-  double constant_value(Ref ref) const;  // precondition: is_constant(ref)
+  bool is_constant(Ref ref, double value) const {
+    return is_constant(ref) && constant_value(ref) == value;
+  }
+  // Precondition: is_constant(ref).
+  double constant_value(Ref ref) const {
+    const double value = node(ref).value;
+    return ref.negative() ? -value : value;
+  }
 
  private:
   Ref intern(Node node);
   void rehash(std::size_t size);
 
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> table_;  // open addressing; node + 1, 0 is free
+  std::vector<std::uint32_t> table_;  // open addressing: node + 1 and 8 bits of its hash; 0 is free
   std::uint32_t origin_ = kNoOrigin;
 };
 

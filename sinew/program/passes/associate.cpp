@@ -1,6 +1,7 @@
 #include "sinew/program/passes/associate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace sinew::program {
@@ -21,8 +22,14 @@ void sort_stably(List& list, Before before) {
 
 // The product of factors first..last, from left to right; the coefficient belongs to the first.
 Ref Associator::multiply(SignedProduct& term, std::size_t first, std::size_t last) {
-  Ref result = dag_.constant(first == 0 ? term.coefficient : 1.0);
-  for (std::size_t k = first; k < last; ++k) result = dag_.multiply(result, term.factors[k]);
+  const double coefficient = first == 0 ? term.coefficient : 1.0;
+  if (first == last || std::abs(coefficient) != 1.0) {
+    Ref result = dag_.constant(coefficient);
+    for (std::size_t k = first; k < last; ++k) result = dag_.multiply(result, term.factors[k]);
+    return result;
+  }
+  Ref result = term.factors[first].negated_if(coefficient < 0.0);
+  for (std::size_t k = first + 1; k < last; ++k) result = dag_.multiply(result, term.factors[k]);
   return result;
 }
 
@@ -49,8 +56,9 @@ Ref Associator::sum(SignedProducts& terms, double deadline) {
     return fused_sum(values, products, deadline);
   }
   if (association_ == Association::kShallow) return shallow_sum(values);
-  Ref result = dag_.constant(0.0);
-  for (const Ref value : values) result = dag_.add(result, value);
+  if (values.empty()) return dag_.constant(0.0);
+  Ref result = values.front();
+  for (std::size_t k = 1; k < values.size(); ++k) result = dag_.add(result, values[k]);
   return result;
 }
 

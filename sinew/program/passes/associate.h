@@ -14,7 +14,7 @@ struct SignedProduct {
   double coefficient = 1.0;
   SmallList<Ref, 4> factors;
 };
-using SignedProducts = std::vector<SignedProduct>;
+using SignedProducts = PooledVector<SignedProduct>;
 
 class Associator {
  public:

@@ -49,7 +49,7 @@ bool take_out(const Factor& factor, Monomial& term) {
 // and looked at in their turn.
 void factor(Polynomials& system, std::uint32_t i) {
   for (;;) {
-    std::vector<Monomial>& terms = system.polynomial[i].terms;
+    Monomials& terms = system.polynomial[i].terms;
     FactorList all;
     for (const Monomial& term : terms) {
       const FactorList of_term = factors_of(term);
@@ -72,7 +72,7 @@ void factor(Polynomials& system, std::uint32_t i) {
 
     Polynomial inside;
     inside.origin = system.polynomial[i].origin;
-    std::vector<Monomial> outside;
+    Monomials outside;
     for (Monomial& term : terms) {
       (take_out(best, term) ? inside.terms : outside).push_back(std::move(term));
     }

@@ -14,7 +14,7 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 // The two nodes of which a node is a linear combination, if it is one.
 bool two_nodes(const Polynomials& system, std::uint32_t i, Pair& pair) {
   if (!system.is_polynomial[i]) return false;
-  const std::vector<Monomial>& terms = system.polynomial[i].terms;
+  const Monomials& terms = system.polynomial[i].terms;
   if (terms.size() != 2 || terms[0].factors.size() != 1 || terms[1].factors.size() != 1) {
     return false;
   }
@@ -26,11 +26,12 @@ class Merging {
  public:
   explicit Merging(Polynomials& system) : system_(system), uses_(use_counts(system)) {}
 
-  void run(std::uint32_t i) {
+  // Returns whether terms met.
+  bool run(std::uint32_t i) {
     // Linear terms by the two nodes that they combine.
     std::map<Pair, std::vector<std::size_t>> groups;
     std::vector<bool> expand(system_.polynomial[i].terms.size(), false);
-    const std::vector<Monomial>& terms = system_.polynomial[i].terms;
+    const Monomials& terms = system_.polynomial[i].terms;
     for (std::size_t k = 0; k < terms.size(); ++k) {
       Pair pair;
       if (terms[k].factors.size() == 1 && two_nodes(system_, terms[k].factors[0], pair)) {
@@ -52,7 +53,7 @@ class Merging {
       if (members.size() + meeting + freed <= 2) continue;
       for (const std::size_t k : members) expand[k] = true;
     }
-    if (std::none_of(expand.begin(), expand.end(), [](bool e) { return e; })) return;
+    if (std::none_of(expand.begin(), expand.end(), [](bool e) { return e; })) return false;
 
     Polynomial result;
     result.origin = system_.polynomial[i].origin;
@@ -70,6 +71,7 @@ class Merging {
     collect_terms(result);
     system_.polynomial[i] = std::move(result);
     uses_ = use_counts(system_);
+    return true;
   }
 
  private:
@@ -82,9 +84,11 @@ class Merging {
 Computation merge_terms(Computation computation) {
   Polynomials system = read_polynomials(std::move(computation));
   Merging merging(system);
+  bool changed = false;
   for (std::uint32_t i = 0; i < system.polynomial.size(); ++i) {
-    if (system.is_polynomial[i] && system.polynomial[i].terms.size() > 1) merging.run(i);
+    if (system.is_polynomial[i] && system.polynomial[i].terms.size() > 1) changed |= merging.run(i);
   }
+  if (!changed) return std::move(system.graph);
   return write_polynomials(system, Association::kPlain);
 }
 

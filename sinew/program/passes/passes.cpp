@@ -6,6 +6,7 @@
 #include <span>
 
 #include "sinew/program/passes/factor_sums.h"
+#include "sinew/program/passes/flatten_sums.h"
 #include "sinew/program/passes/fuse_multiply_add.h"
 #include "sinew/program/passes/merge_terms.h"
 #include "sinew/program/passes/reassociate.h"
@@ -26,6 +27,7 @@ struct Pass {
 
 constexpr Pass kFirst[] = {
     {"share denominators", share_denominators},
+    {"flatten sums", flatten_sums},
 };
 
 // Each makes work for the others: again as long as operations vanish.

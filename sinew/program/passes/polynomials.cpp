@@ -24,23 +24,21 @@ class Reader {
     for (std::uint32_t i = 0; i < dag().size(); ++i) {
       if (uses_[i] == 0) continue;
       const Node& node = dag().node(i);
-      Polynomial polynomial;
+      Polynomial& polynomial = system_.polynomial[i];
       if (node.op == Op::kAdd) {
         add_terms(node.a, polynomial);
         add_terms(node.b, polynomial);
         collect_terms(polynomial);
       } else if (node.op == Op::kMultiply) {
-        Monomial monomial;
+        Monomial& monomial = polynomial.terms.emplace_back();
         add_factors(node.a, monomial);
         add_factors(node.b, monomial);
         std::sort(monomial.factors.begin(), monomial.factors.end());
-        polynomial.terms.push_back(std::move(monomial));
       } else {
         continue;
       }
       polynomial.origin = node.origin;
       system_.is_polynomial[i] = true;
-      system_.polynomial[i] = std::move(polynomial);
     }
     return std::move(system_);
   }
@@ -56,10 +54,10 @@ class Reader {
     if (dag().is_constant(ref)) {
       polynomial.terms.push_back({dag().constant_value(ref), {}});
     } else if (taken_up(i)) {
-      std::vector<Monomial>& inner = system_.polynomial[i].terms;
+      Monomials& inner = system_.polynomial[i].terms;
       for (Monomial& term : inner) term.coefficient *= sign;
       if (polynomial.terms.empty()) {
-        polynomial.terms = std::move(inner);
+        polynomial.terms.swap(inner);
       } else {
         for (Monomial& term : inner) polynomial.terms.push_back(std::move(term));
       }
@@ -131,7 +129,7 @@ class Writer {
     if (done_[i]) return copy_[i];
     if (system_.is_polynomial[i]) {
       const Polynomial& polynomial = system_.polynomial[i];
-      std::vector<SignedProduct> terms;
+      SignedProducts terms;
       terms.reserve(polynomial.terms.size());
       for (const Monomial& term : polynomial.terms) {
         SignedProduct product{term.coefficient, {}};
@@ -200,7 +198,7 @@ std::vector<std::uint32_t> use_counts(const Polynomials& system) {
 }
 
 void collect_terms(Polynomial& polynomial) {
-  std::vector<Monomial>& terms = polynomial.terms;
+  Monomials& terms = polynomial.terms;
   // Mostly there is nothing to collect.
   bool distinct = true;
   for (std::size_t a = 0; a < terms.size() && distinct; ++a) {
@@ -208,7 +206,7 @@ void collect_terms(Polynomial& polynomial) {
     for (std::size_t b = 0; b < a && distinct; ++b) distinct = terms[a].factors != terms[b].factors;
   }
   if (distinct) return;
-  std::vector<Monomial> kept;
+  Monomials kept;
   for (Monomial& term : terms) {
     const auto same = std::find_if(kept.begin(), kept.end(), [&](const Monomial& other) {
       return other.factors == term.factors;

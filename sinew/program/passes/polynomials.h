@@ -21,8 +21,10 @@ struct Monomial {
   Factors factors;
 };
 
+using Monomials = PooledVector<Monomial>;
+
 struct Polynomial {
-  std::vector<Monomial> terms;
+  Monomials terms;
   std::uint32_t origin = kNoOrigin;
 };
 

@@ -1,0 +1,76 @@
+#include "sinew/backend/json_text.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace sinew::backend {
+
+// A comma, where something stands in front at the same level.
+void JsonText::separate() {
+  if (text_.empty()) return;
+  const char last = text_.back();
+  if (last != '{' && last != '[' && last != ':') text_ += ',';
+}
+
+JsonText& JsonText::begin_object() {
+  separate();
+  text_ += '{';
+  return *this;
+}
+JsonText& JsonText::end_object() {
+  text_ += '}';
+  return *this;
+}
+JsonText& JsonText::begin_array() {
+  separate();
+  text_ += '[';
+  return *this;
+}
+JsonText& JsonText::end_array() {
+  text_ += ']';
+  return *this;
+}
+
+JsonText& JsonText::key(std::string_view name) {
+  value(name);
+  text_ += ':';
+  return *this;
+}
+
+JsonText& JsonText::value(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  separate();
+  text_ += '"';
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      text_ += '\\';
+      text_ += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      text_ += "\\u00";
+      text_ += kDigits[static_cast<unsigned char>(c) >> 4U];
+      text_ += kDigits[static_cast<unsigned char>(c) & 15U];
+    } else {
+      text_ += c;
+    }
+  }
+  text_ += '"';
+  return *this;
+}
+
+JsonText& JsonText::value(double number) {
+  separate();
+  if (!std::isfinite(number)) {
+    text_ += "null";
+    return *this;
+  }
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+  const std::string_view shortest(digits.data(), static_cast<std::size_t>(end - digits.data()));
+  text_ += shortest;
+  // A number with a fraction stays one for readers that tell integers from others.
+  if (shortest.find_first_of(".e") == std::string_view::npos) text_ += ".0";
+  return *this;
+}
+
+}  // namespace sinew::backend

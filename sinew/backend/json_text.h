@@ -1,0 +1,50 @@
+// JSON written as text, member by member: what a program is described with has tens of thousands of
+// values, for which a document in memory takes ten times as long.
+#pragma once
+
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew::backend {
+
+class JsonText {
+ public:
+  // Between begin and end of an object each value follows its key.
+  JsonText& begin_object();
+  JsonText& end_object();
+  JsonText& begin_array();
+  JsonText& end_array();
+  JsonText& key(std::string_view name);
+
+  JsonText& value(std::string_view text);
+  JsonText& value(const char* text) { return value(std::string_view(text)); }
+  JsonText& value(double number);  // the shortest text that is this number; null where it is none
+  template <std::integral Integer>
+  JsonText& value(Integer number) {
+    separate();
+    text_ += std::to_string(number);
+    return *this;
+  }
+  template <typename Value>
+  JsonText& value(const std::vector<Value>& values) {
+    begin_array();
+    for (const Value& each : values) value(each);
+    return end_array();
+  }
+
+  template <typename Value>
+  JsonText& member(std::string_view name, const Value& its_value) {
+    return key(name).value(its_value);
+  }
+
+  std::string take() { return std::move(text_); }
+
+ private:
+  void separate();
+
+  std::string text_;
+};
+
+}  // namespace sinew::backend

@@ -1,0 +1,11 @@
+// Writes sums of sums as one sum each, from left to right, before passes look for what they share:
+// what they find then does not depend on where a kernel has put its brackets.
+#pragma once
+
+#include "sinew/program/dag/dag.h"
+
+namespace sinew::program {
+
+Computation flatten_sums(Computation computation);
+
+}  // namespace sinew::program
