@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kStates = 300;
+constexpr int kStates = 1000;
 
 struct Variant {
   std::string name;
