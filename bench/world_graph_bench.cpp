@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "sinew/graph/packed.h"
+#include "sinew/graph/store.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/links.h"
 #include "sinew/world/world.h"

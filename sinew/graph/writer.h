@@ -73,8 +73,8 @@ class Writer {
   static constexpr std::uint32_t kLargeLog = 1 << 16;
   // Notes cost memory and time, and most transactions are not taken back. So, as long as there is
   // no mark, only the first additions are noted in full, of what follows only that it was added.
-  // Taking that back walks the lists that it is in: they have at most so many triples in all for
-  // each that was noted in full.
+  // Taking that back walks the lists that it is in: those of one kind, say all lists of predicates,
+  // have at most so many triples together for each that was noted in full.
   static constexpr std::uint32_t kNotedAtLeast = 256, kTriplesForEachNoted = 64;
   // Of a large store, most is out of the caches: above all tables, and what an object needs. So in
   // a run of triples that nobody looks at yet, what a triple needs is only asked for, and it is put
