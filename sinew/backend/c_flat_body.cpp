@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sinew/backend/angle_groups.h"
+#include "sinew/backend/c_arithmetic.h"
 #include "sinew/backend/flat_parts.h"
 #include "sinew/backend/numbers.h"
 #include "sinew/base/error.h"
@@ -228,27 +229,14 @@ class Emitter {
   }
 
   std::string express(const Node& n) {
-    const auto plus = [](Ref r) { return r.negative() ? " - " : " + "; };
-    switch (n.op) {
-      case Op::kAdd:
-        return value(n.a) + plus(n.b) + value(n.b.node());
-      case Op::kMultiply:
-        return value(n.a) + " * " + value(n.b);
-      case Op::kFma:
-        return value(n.a) + " * " + value(n.b) + plus(n.c) + value(n.c.node());
-      case Op::kDivide:
-        return value(n.a) + " / " + value(n.b);
-      case Op::kSqrt:
-        return fmt::format("sqrt{}({})", suffix_, value(n.a));
-      case Op::kSelect: {
-        const Node& condition = dag_.node(n.a);
-        const std::string a = value(condition.a), b = value(condition.b), x = value(n.b),
-                          y = value(n.c);
-        return fmt::format("{} < {} ? {} : {}", a, b, x, y);
-      }
-      default:
-        return {};
+    if (n.op == Op::kSqrt) return fmt::format("sqrt{}({})", suffix_, value(n.a));
+    if (n.op == Op::kSelect) {
+      const Node& condition = dag_.node(n.a);
+      const std::string a = value(condition.a), b = value(condition.b), x = value(n.b),
+                        y = value(n.c);
+      return fmt::format("{} < {} ? {} : {}", a, b, x, y);
     }
+    return c_arithmetic(n, [this](auto operand) { return value(operand); });
   }
 
   // What vectors have no portable operator for.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <unordered_set>
 
+#include "sinew/backend/c_arithmetic.h"
 #include "sinew/backend/numbers.h"
 #include "sinew/program/dag/evaluate.h"
 
@@ -261,28 +262,18 @@ class Emitter {
   }
 
   std::string express(const Node& n) {
-    const auto plus = [](Ref r) { return r.negative() ? " - " : " + "; };
-    switch (n.op) {
-      case Op::kAdd:
-        return value(n.a) + plus(n.b) + value(n.b.node());
-      case Op::kMultiply:
-        return value(n.a) + " * " + value(n.b);
-      case Op::kFma:
-        return value(n.a) + " * " + value(n.b) + plus(n.c) + value(n.c.node());
-      case Op::kDivide:
-        return value(n.a) + " / " + value(n.b);
-      case Op::kSqrt:
-        return lane_by_lane({n.a}, [&](const std::vector<std::string>& x) {
-          return fmt::format("sqrt{}({})", suffix_, x[0]);
-        });
-      default: {  // kSelect
-        const Node& condition = dag().node(n.a);
-        return lane_by_lane({condition.a, condition.b, n.b, n.c},
-                            [](const std::vector<std::string>& x) {
-                              return fmt::format("{} < {} ? {} : {}", x[0], x[1], x[2], x[3]);
-                            });
-      }
+    if (n.op == Op::kSqrt)
+      return lane_by_lane({n.a}, [&](const std::vector<std::string>& x) {
+        return fmt::format("sqrt{}({})", suffix_, x[0]);
+      });
+    if (n.op == Op::kSelect) {
+      const Node& condition = dag().node(n.a);
+      return lane_by_lane({condition.a, condition.b, n.b, n.c},
+                          [](const std::vector<std::string>& x) {
+                            return fmt::format("{} < {} ? {} : {}", x[0], x[1], x[2], x[3]);
+                          });
     }
+    return c_arithmetic(n, [this](auto operand) { return value(operand); });
   }
 
   // What vectors have no portable operator for.
