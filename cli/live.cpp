@@ -5,6 +5,7 @@
 #include <cmath>
 #include <csignal>
 #include <iostream>
+#include <sstream>
 #include <thread>
 
 #include "application.h"
@@ -267,6 +268,45 @@ void add_live_options(CLI::App& app, LiveOptions& options) {
   app.add_flag("--catch-up", options.catch_up,
                "Run late cycles one right after the other instead of leaving them out")
       ->group(group);
+}
+
+std::string misplaced_option(const CLI::App& app, const std::string& robot) {
+  struct Use {
+    const char *option, *robots;  // "rows": without a robot
+  };
+  constexpr Use kUses[] = {
+      {"--input", "rows"},
+      {"--output", "rows"},
+      {"--rate", "print mujoco udp"},
+      {"--for", "print mujoco udp"},
+      {"--record", "print mujoco udp"},
+      {"--set", "print mujoco udp"},
+      {"--swap", "print mujoco udp"},
+      {"--swap-at", "print mujoco udp"},
+      {"--swap-task", "print mujoco udp"},
+      {"--start", "print mujoco"},
+      {"--scene", "mujoco"},
+      {"--safe", "print mujoco udp"},
+      {"--age-limit", "print mujoco udp"},
+      {"--local", "udp"},
+      {"--remote", "udp"},
+      {"--lockstep", "mujoco"},
+      {"--catch-up", "print mujoco udp"},
+  };
+  const std::string here = robot.empty() ? "rows" : robot;
+  for (const Use& use : kUses) {
+    if (app.count(use.option) == 0) continue;
+    std::istringstream robots(use.robots);
+    std::string one, others;
+    bool used = false;
+    while (robots >> one) {
+      used |= one == here;
+      others += (others.empty() ? "" : " or ") +
+                (one == "rows" ? std::string("--input ROWS.csv") : "--robot " + one);
+    }
+    if (!used) return std::string(use.option) + " goes with " + others;
+  }
+  return {};
 }
 
 int run_live(const ModelOptions& files, const QueryOptions& query, const LiveOptions& options,

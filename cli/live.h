@@ -23,6 +23,10 @@ struct LiveOptions {
 
 void add_live_options(CLI::App& app, LiveOptions& options);
 
+// What is wrong with the options that were given, because this robot (or none: rows of a file) has
+// no use for one of them; empty if nothing is.
+std::string misplaced_option(const CLI::App& app, const std::string& robot);
+
 // Runs until it is over, interrupted or faulted; statistics go to standard error. Returns the exit
 // code: 1 after a fault. Throws Error.
 int run_live(const ModelOptions& files, const QueryOptions& query, const LiveOptions& options,

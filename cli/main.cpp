@@ -46,7 +46,8 @@ void print_help(std::ostream& out) {
     out << "  " << command.name << std::string(10 - command.name.size(), ' ') << command.summary
         << "\n            sinew " << command.name << " " << command.usage << "\n";
   }
-  out << "\nexit code: 0 done, 1 the models or the query are at fault, 2 bad usage\n";
+  out << "\nsinew --version names the version\n"
+         "exit code: 0 done, 1 the models or the query are at fault, 2 bad usage\n";
 }
 
 }  // namespace

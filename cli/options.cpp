@@ -14,8 +14,10 @@ std::optional<int> parse(CLI::App& app, Arguments arguments) {
     std::cout << app.help();
     return kOk;
   } catch (const CLI::ParseError& error) {
-    std::cerr << app.get_name() << ": " << error.what() << "\nsee '" << app.get_name()
-              << " --help'\n";
+    // Of a subcommand, if one was named: its own help has its options.
+    std::string name = app.get_name();
+    for (const CLI::App* named : app.get_subcommands()) name += " " + named->get_name();
+    std::cerr << name << ": " << error.what() << "\nsee '" << name << " --help'\n";
     return kBadUsage;
   }
 }

@@ -67,6 +67,10 @@ int run_run(Arguments arguments) {
     std::cerr << "sinew run: give --input ROWS.csv, or --robot NAME\n";
     return kBadUsage;
   }
+  if (const std::string fault = misplaced_option(app, live.robot); !fault.empty()) {
+    std::cerr << "sinew run: " << fault << "\nsee 'sinew run --help'\n";
+    return kBadUsage;
+  }
   if (!live.robot.empty()) return run_live(models_options, query, live, interpret);
 
   const Table rows = read_csv(read_input(input), input);

@@ -221,5 +221,25 @@ WHERE { ?schedule algo:trigger-chain ?first . ?first rdf:rest* ?before . ?before
   EXPECT_FALSE(std::filesystem::exists(folder_ / "broken.jsonld"));
 }
 
+TEST(Run, RefusesAnOptionThatTheRobotHasNoUseFor) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--input", "rows.csv", "--rate", "100"},
+       "--rate goes with --robot print or --robot mujoco or --robot udp"},
+      {{"--input", "rows.csv", "--catch-up"}, "--catch-up goes with --robot"},
+      {{"--robot", "mujoco", "-o", "rows.csv"}, "--output goes with --input ROWS.csv"},
+      {{"--robot", "print", "--scene", "s.json"}, "--scene goes with --robot mujoco"},
+      {{"--robot", "mujoco", "--remote", "127.0.0.1:9"}, "--remote goes with --robot udp"},
+      {{"--robot", "udp", "--start", "position=0"},
+       "--start goes with --robot print or --robot mujoco"},
+  };
+  for (const auto& [options, expected] : cases) {
+    std::vector<std::string> all = {"--solver", "gravity"};
+    all.insert(all.end(), options.begin(), options.end());
+    const Result result = run_sinew(with_gen3({"run"}, all));
+    EXPECT_EQ(result.exit_code, 2) << expected;
+    EXPECT_THAT(result.err, HasSubstr(expected));
+  }
+}
+
 }  // namespace
 }  // namespace sinew::test

@@ -159,6 +159,10 @@ TEST(WorldCommand, TheDocumentedSceneAnswersAsDocumented) {
   const std::string pose = ask("pose", {"--of", "at-red", "--wrt", "at-table", "--now", "10.2"});
   EXPECT_THAT(pose, HasSubstr("position    0.3 -0.2 "));
   EXPECT_THAT(pose, HasSubstr("holds for another 0.3 s"));
+  const std::string sure =
+      ask("pose", {"--of", "at-red", "--wrt", "at-table", "--uncertainty", "--why"});
+  EXPECT_THAT(sure, HasSubstr("pose-red  by seen-red"));
+  EXPECT_THAT(sure, HasSubstr("deviation   0.01745 0.01745 0.01745 rad, 0.003"));
   // An object stands for its frame.
   EXPECT_EQ(ask("pose", {"--of", "red-box", "--wrt", "table", "--now", "10.2"}), pose);
   EXPECT_EQ(ask("relations", {"--relation", "on"}), "blue-box on table\nred-box on table\n");
@@ -187,7 +191,9 @@ TEST(WorldCommand, ATermThatIsNoneIsAFault) {
 TEST(WorldCommand, SaysWhatItDoesAndWhatIsMissing) {
   EXPECT_THAT(run_sinew({"world", "--help"}).out, HasSubstr("relations"));
   EXPECT_EQ(run_sinew({"world"}).exit_code, 2);
-  EXPECT_EQ(ask("pose", {"--of", "F2"}).exit_code, 2);
+  const Result less = ask("pose", {"--of", "F2"});
+  EXPECT_EQ(less.exit_code, 2);
+  EXPECT_THAT(less.err, HasSubstr("--wrt is required\nsee 'sinew world pose --help'"));
   const Result unknown = ask("pose", {"--of", "F9", "--wrt", "F1"});
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_THAT(unknown.err, HasSubstr("F9: is no frame or object of this scene; one of F0"));

@@ -92,7 +92,9 @@ DenseSolution solve_densely(peers::Peer& peer, const Problem& problem) {
   solution.residual = energy - solution.bias - solution.jacobian * factors.solve(motion.force);
   const VectorXd scale = solution.coupling.diagonal().cwiseSqrt().cwiseInverse();
   solution.condition = m > 0 ? std::numeric_limits<double>::infinity() : 1;
-  if (m > 0 && scale.allFinite()) {
+  // A direction in which the link cannot move, but for round-off, is as singular as can be.
+  const bool movable = m > 0 && solution.jacobian.rowwise().norm().minCoeff() > 1e-9;
+  if (movable && scale.allFinite()) {
     const MatrixXd scaled = scale.asDiagonal() * solution.coupling * scale.asDiagonal();
     const VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(scaled).eigenvalues();
     solution.condition = values(m - 1) / std::max(values(0), 1e-300);

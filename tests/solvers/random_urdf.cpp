@@ -21,10 +21,12 @@ class Generator {
     unsigned last = 0;
     for (unsigned joint = 0; joint < robot_.joints; ++joint) {
       while (chance(robot_.fixed / (1 + robot_.fixed))) {
-        text += link(links, true) + fixed_joint(parent(last, links), links);
+        const std::string fixed = fixed_joint(parent(last, links), links);
+        text += link(links, true) + fixed;
         last = links++;
       }
-      text += link(links, true) + moving_joint(joint, parent(last, links), links);
+      const std::string moving = moving_joint(joint, parent(last, links), links);
+      text += link(links, true) + moving;
       last = links++;
     }
     return text + "</robot>\n";
@@ -58,8 +60,10 @@ class Generator {
       return chance(0.4) ? M_PI_2 * std::round(number(-2, 2)) : number(-3, 3);
     };
     const auto length = [&] { return chance(0.3) ? 0.0 : number(-0.4, 0.4); };
-    return fmt::format("<origin xyz=\"{} {} {}\" rpy=\"{} {} {}\"/>", length(), length(), length(),
-                       angle(), angle(), angle());
+    // One after the other: arguments of a call are evaluated in the compiler's own order.
+    const double yaw = angle(), pitch = angle(), roll = angle();
+    const double z = length(), y = length(), x = length();
+    return fmt::format("<origin xyz=\"{} {} {}\" rpy=\"{} {} {}\"/>", x, y, z, roll, pitch, yaw);
   }
   std::string link(unsigned index, bool heavy) {
     if (!heavy) return fmt::format("  <link name=\"link{}\"/>\n", index);
