@@ -28,7 +28,11 @@ class Generator {
 
   Eigen::Vector3d unit() {
     for (;;) {
-      const Eigen::Vector3d v(number(-1, 1), number(-1, 1), number(-1, 1));
+      // One after the other: arguments of a call are evaluated in the compiler's own order.
+      Eigen::Vector3d v;
+      v.z() = number(-1, 1);
+      v.y() = number(-1, 1);
+      v.x() = number(-1, 1);
       if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
     }
   }
@@ -39,13 +43,18 @@ class Generator {
     return v;
   }
 
+  Eigen::Matrix3d rotation() {
+    const Eigen::Vector3d about = unit();
+    return Eigen::AngleAxisd(number(-3, 3), about).toRotationMatrix();
+  }
+
   TestLink link() {
     TestLink link;
     link.mass = number(0.3, 3);
     link.com = 0.2 * unit();
     const double x = number(0.05, 0.3), y = number(0.05, 0.3), z = number(0.05, 0.3);
     const Eigen::Vector3d moments(y * y + z * z, x * x + z * z, x * x + y * y);
-    const Eigen::Matrix3d R = Eigen::AngleAxisd(number(-3, 3), unit()).toRotationMatrix();
+    const Eigen::Matrix3d R = rotation();
     link.inertia = link.mass / 12 * (R * moments.asDiagonal() * R.transpose());
     return link;
   }
@@ -72,7 +81,7 @@ class Generator {
         0, options_.kinds.size() - 1)(random_)];
     j.parent =
         chance(options_.branching) ? std::uniform_int_distribution<>(0, index)(random_) : index;
-    j.placement.linear() = Eigen::AngleAxisd(number(-3, 3), unit()).toRotationMatrix();
+    j.placement.linear() = rotation();
     j.placement.translation() = 0.3 * unit();
     add_motions(j);
     const bool one = j.kind == "revolute" || j.kind == "prismatic" || j.kind == "helical";
