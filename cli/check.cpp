@@ -6,6 +6,7 @@
 #include "options.h"
 #include "output.h"
 #include "pipeline.h"
+#include "sinew/blocks/elaborate.h"
 #include "sinew/model/normalise.h"
 #include "sinew/rdf/catalogue/catalogue.h"
 #include "sinew/rdf/shacl/report.h"
@@ -100,7 +101,10 @@ int run_check(Arguments arguments) {
   std::size_t frames = 0, objects = 0, shaped = 0;
   if (!only_shapes && is_scene) {
     world::World world;
-    world::load_scene(world, models->store, models->places, report);
+    world::load_scene(
+        world, models->store, models->places, report, {.read_library = [](const std::string& text) {
+          return std::make_shared<const data::Library>(blocks::load_library(text, "data blocks"));
+        }});
     if (!report.has_errors()) {
       shaped = world::read_scene(world, models->store, models->places, report).bodies.size();
       world::read_rights(models->store, models->places, report);

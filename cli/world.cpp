@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <optional>
 
 #include "output.h"
 #include "prefixes.h"
@@ -14,6 +15,7 @@
 #include "sinew/rdf/results/table.h"
 #include "sinew/rdf/sparql/engine.h"
 #include "sinew/rdf/turtle/writer.h"
+#include "sinew/world/copy_declarations.h"
 #include "sinew/world/qualitative_facts.h"
 #include "sinew/world/space.h"
 #include "world_scene.h"
@@ -31,7 +33,7 @@ using world::Status;
 struct Asked {
   std::string of, with_respect_to, in, area, viewer, relation, text, file, output;
   std::vector<std::string> judge;
-  bool inside = false, why = false, uncertain = false;
+  bool inside = false, why = false, uncertain = false, with_robot = false;
 };
 
 std::string seconds(world::Duration duration) {
@@ -76,7 +78,13 @@ int show(LoadedScene& scene, const Asked&) {
                relation.suspended ? ", suspended" : "");
     for (Index m = relation.first_measurement; m != world::kNone; m = state.measurements[m].next) {
       const auto& record = state.measurements[m];
-      const auto sample = world.latest(MeasurementId{m}, scene.now);
+      world::World::Sample sample;
+      try {
+        sample = scene.asker ? scene.asker->read().latest(MeasurementId{m}, scene.now)
+                             : world.latest(MeasurementId{m}, scene.now);
+      } catch (const Error&) {
+        sample.status = Status::kForbidden;
+      }
       std::string status(to_string(sample.status));
       if (sample.status == Status::kOk) {
         const bool is_static = std::holds_alternative<world::Static>(record.model->life_cycle);
@@ -95,7 +103,8 @@ int show(LoadedScene& scene, const Asked&) {
 int pose(LoadedScene& scene, const Asked& asked) {
   const world::PoseQuery query = {.of = scene.frame(asked.of),
                                   .with_respect_to = scene.frame(asked.with_respect_to)};
-  world::PreparedPose prepared = scene.world.prepare_pose(query);
+  world::PreparedPose prepared =
+      scene.asker ? scene.asker->read().prepare_pose(query) : scene.world.prepare_pose(query);
   const world::PoseAnswer answer = prepared.latest(scene.now);
   if (!answer) {
     std::string which;
@@ -118,8 +127,9 @@ int pose(LoadedScene& scene, const Asked& asked) {
     fmt::print("            holds for another {}\n", seconds(fresh.expires - scene.now));
   }
   if (asked.uncertain) {
-    const auto uncertain = uncertain_pose(scene.world, query,
-                                          uncertainties_of(scene.world, scene.declared), scene.now);
+    const auto known = uncertainties_of(scene.world, scene.declared);
+    const auto uncertain = scene.asker ? scene.asker->read().uncertain_pose(query, known, scene.now)
+                                       : uncertain_pose(scene.world, query, known, scene.now);
     if (!uncertain) {
       std::string names;
       for (const std::string& name : uncertain.undeclared) {
@@ -147,7 +157,9 @@ int pose(LoadedScene& scene, const Asked& asked) {
 // ---- space ----
 
 world::Space space_of(LoadedScene& scene, const Asked& asked) {
-  world::Space space(scene.world, scene.root(asked.in));
+  const FrameId root = scene.root(asked.in);
+  world::Space space =
+      scene.asker ? world::Space(scene.asker->read(), root) : world::Space(scene.world, root);
   add_bodies(space, scene.declared);
   space.update(scene.now);
   return space;
@@ -248,7 +260,15 @@ int query(LoadedScene& scene, const Asked& asked) {
     std::cerr << "sinew world query: give the SPARQL text with -e or -q\n";
     return kBadUsage;
   }
-  graph::Store& store = scene.models->store;
+  // Models have values too: on behalf of a component, what is said of what it may read.
+  std::optional<world::JudgedFacts> judged;
+  if (scene.asker) judged = scene.asker->read().facts();
+  graph::Store& store = judged ? judged->store : scene.models->store;
+  if (judged) {
+    for (const std::string& name : judged->left_out) {
+      std::cerr << name << ": left out, as it is not for " << scene.asker->who() << "\n";
+    }
+  }
   if (!scene.declared.bodies.empty()) {
     const world::Space space = space_of(scene, asked);
     state_facts(relations_of(space, scene.declared), space, store, viewer_of(scene, asked));
@@ -304,9 +324,22 @@ int save(LoadedScene& scene, const Asked& asked) {
   const world::State state = scene.world.state();
   graph::Store out;
   Report report;
-  write_scene(scene.world, scene.declared, out, report, {.leave_out = [&](RelationId id) {
-                return is_of_robot(scene, state.relations[id.index]);
-              }});
+  world::SceneWriting writing;
+  world::DeclaredScene declared = scene.declared;
+  if (!asked.with_robot) {
+    writing.leave_out = [&](RelationId id) {
+      return is_of_robot(scene, state.relations[id.index]);
+    };
+    std::erase_if(declared.bodies, [&](const world::DeclaredBody& body) {
+      return body.kind == world::DeclaredKind::kFrame && scene.robot_frames.contains(body.iri);
+    });
+  }
+  if (scene.asker) {
+    scene.asker->read().write_scene(declared, out, report, writing);
+  } else {
+    write_scene(scene.world, declared, out, report, writing);
+  }
+  world::copy_declarations(scene.models->store, out);
   print_notes(report);
   if (asked.output.ends_with(".ttl")) {
     rdf::WriteOptions options;
@@ -370,8 +403,11 @@ const Verb kVerbs[] = {
        app.add_option("-o,--output", asked.output, "File for the answer");
        add_in(app, asked);
      }},
-    {"save", "The scene as a model again, with the last value of every measurement", save,
+    {"save", "The scene as a model again, with the last value of every measurement and the rights",
+     save,
      [](CLI::App& app, Asked& asked) {
+       app.add_flag("--with-robot", asked.with_robot,
+                    "Also the robot's frames, joints and shapes, so that the file stands alone");
        app.add_option("-o,--output", asked.output,
                       "FILE.jsonld or FILE.ttl (default: JSON-LD on "
                       "standard output)");

@@ -6,8 +6,10 @@
 #include <set>
 
 #include "robot_tree.h"
+#include "sinew/blocks/elaborate.h"
 #include "sinew/model/normalise.h"
 #include "sinew/world/robot.h"
+#include "sinew/world/robot_shapes.h"
 
 namespace sinew::cli {
 namespace {
@@ -60,6 +62,23 @@ std::vector<double> numbers(const std::string& text, const std::string& option) 
   }
 }
 
+world::MeshFiles meshes_of(const SceneOptions& options) {
+  world::MeshFiles meshes{.packages = {}, .directory = options.mesh_directory};
+  for (const std::string& package : options.packages) {
+    const std::size_t equals = package.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      refuse("--package", "'" + package + "' names no directory", "NAME=DIRECTORY");
+    }
+    meshes.packages[package.substr(0, equals)] = package.substr(equals + 1);
+  }
+  return meshes;
+}
+
+// Data blocks of scenes are in the block language.
+std::shared_ptr<const data::Library> read_library(const std::string& text) {
+  return std::make_shared<const data::Library>(blocks::load_library(text, "data blocks"));
+}
+
 void add_the_robot(const SceneOptions& options, LoadedScene& scene) {
   if (options.robots.empty()) return;
   if (options.robot_provenance.empty()) {
@@ -72,6 +91,10 @@ void add_the_robot(const SceneOptions& options, LoadedScene& scene) {
   const model::Tree tree = robot_tree(*models, {});
   world::add_robot(scene.world, tree, models->store.terms(),
                    {.provenance = options.robot_provenance});
+  Report report;
+  scene.robot_bodies = world::read_robot_shapes(scene.world, models->store, models->places, report,
+                                                meshes_of(options));
+  print_notes(report);
   for (const auto& body : tree.bodies) {
     scene.robot_frames.emplace(models->store.terms().text(body.frame));
   }
@@ -124,6 +147,16 @@ world::Stamp last_stamp(const world::World& world) {
   return last;
 }
 
+// A frame to which the scene gives shapes of its own has those.
+void add_robot_bodies(LoadedScene& scene) {
+  for (world::DeclaredBody& body : scene.robot_bodies) {
+    const auto& all = scene.declared.bodies;
+    const bool is_there =
+        std::any_of(all.begin(), all.end(), [&](const auto& each) { return each.iri == body.iri; });
+    if (!is_there) scene.declared.bodies.push_back(body);
+  }
+}
+
 }  // namespace
 
 std::string short_name(const std::string& iri) {
@@ -144,9 +177,16 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                  "MEASUREMENT=numbers[@seconds]: written before anything is asked; a pose is "
                  "x,y,z,qx,qy,qz,qw. May be repeated")
       ->allow_extra_args(false);
-  app.add_option("--as", options.as,
-                 "IRI or name of the component that writes (default: each measurement's declared "
-                 "provenance)");
+  app.add_option(
+      "--as", options.as,
+      "IRI or name of the component that writes and asks: what it may not read it is not "
+      "told (default: each measurement's declared provenance writes, and the owner asks)");
+  app.add_option("--package", options.packages,
+                 "NAME=DIRECTORY: the root of package://NAME/ in the files of meshes. May be "
+                 "repeated")
+      ->allow_extra_args(false);
+  app.add_option("--mesh-directory", options.mesh_directory,
+                 "Directory of meshes whose path is relative");
   app.add_option("--now", options.now_s,
                  "The time for which is asked, in seconds (default: that of the last entry)");
 }
@@ -220,19 +260,22 @@ std::unique_ptr<LoadedScene> load_world(const SceneOptions& options) {
   add_the_robot(options, *scene);
   Report report;
   graph::Store& store = scene->models->store;
-  load_scene(scene->world, store, scene->models->places, report);
+  load_scene(scene->world, store, scene->models->places, report, {.read_library = read_library});
   if (!report.has_errors()) {
-    scene->declared = read_scene(scene->world, store, scene->models->places, report);
+    scene->declared =
+        read_scene(scene->world, store, scene->models->places, report, meshes_of(options));
+    add_robot_bodies(*scene);
     scene->rights = world::read_rights(store, scene->models->places, report);
   }
   report.throw_if_errors();
   print_notes(report);
   scene->audit = std::make_shared<world::Audit>();
-  enforce(scene->world, scene->rights.rights, scene->audit);
+  world::Access access(scene->world, scene->rights.rights, scene->audit);
   SceneOptions resolved = options;
   if (!options.as.empty()) {
     const auto& known = scene->rights.components;
     resolved.as = find(options.as, {known.begin(), known.end()}, {}, "component");
+    scene->asker = std::make_unique<world::Participant>(access.participant(resolved.as));
   }
   for (const std::string& text : options.writes) write(text, resolved, *scene);
   scene->now = options.now_s ? world::Stamp(world::duration_of_seconds(*options.now_s))

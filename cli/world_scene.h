@@ -13,6 +13,7 @@
 #include "pipeline.h"
 #include "sinew/world/audit.h"
 #include "sinew/world/declared_rights.h"
+#include "sinew/world/participant.h"
 #include "sinew/world/scene.h"
 
 namespace sinew::cli {
@@ -22,7 +23,9 @@ struct SceneOptions {
   std::vector<std::string> robots;  // model files of one robot
   std::string robot_provenance;
   std::vector<std::string> writes;  // "MEASUREMENT=numbers[@seconds]"
-  std::string as;                   // who writes; empty: each measurement's own provenance
+  std::string as;  // who writes and asks; empty: each measurement's own provenance, and the owner
+  std::vector<std::string> packages;  // "NAME=DIRECTORY", of meshes
+  std::string mesh_directory;
   std::optional<double> now_s;
 };
 void add_scene_options(CLI::App& app, SceneOptions& options);
@@ -35,6 +38,8 @@ struct LoadedScene {
   std::shared_ptr<world::Audit> audit;
   world::Stamp now;
   std::set<std::string> robot_frames;  // IRIs
+  std::vector<world::DeclaredBody> robot_bodies;  // of its collision geometry
+  std::unique_ptr<world::Participant> asker;  // on whose behalf is asked; null: the owner's
 
   // By IRI, by label, or by what follows the last '#' or '/' of the IRI. Throws Error where there
   // is none, or several.

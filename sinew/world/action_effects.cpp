@@ -80,23 +80,48 @@ FactText text_of(const graph::Terms& terms, const graph::Quad& fact) {
           terms.to_string(fact.object), fact.graph ? terms.to_string(fact.graph) : ""};
 }
 
-std::vector<Attached> pairs(const graph::View& view, graph::Terms& terms, const ActionModel& model,
-                            const std::string& query) {
-  std::vector<Attached> found;
+// What a query says the structure is to become: a row for each, a text for each of `names`, of
+// which the last ones need not be bound.
+std::vector<std::vector<std::string>> rows_of(const graph::View& view, graph::Terms& terms,
+                                              const ActionModel& model, const std::string& query,
+                                              std::initializer_list<const char*> names,
+                                              std::size_t needed) {
+  std::vector<std::vector<std::string>> found;
   if (query.empty()) return found;
   const rdf::sparql::Answer answer = ask(view, terms, model.name, query);
   const auto& columns = answer.results.columns;
-  const auto column = [&](const char* name) {
-    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) -
-                                    columns.begin());
-  };
-  const std::size_t frame = column("frame"), parent = column("parent");
   for (const auto& row : answer.results.rows) {
-    if (!row[frame] || !row[parent]) {
-      refuse(model.name, "a frame or a parent is not bound where it attaches or detaches",
-             "a row for each pair of frames");
+    std::vector<std::string>& texts = found.emplace_back();
+    for (const char* name : names) {
+      const auto column = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) -
+                                                   columns.begin());
+      const Id value = column < row.size() ? row[column] : Id{};
+      if (!value && texts.size() < needed) {
+        refuse(model.name,
+               "?" + std::string(name) + " is not bound in a row that changes the structure",
+               "a value in each row");
+      }
+      texts.push_back(value ? std::string(terms.text(value)) : std::string());
     }
-    found.push_back({std::string(terms.text(row[frame])), std::string(terms.text(row[parent]))});
+  }
+  return found;
+}
+
+std::vector<Attached> pairs(const graph::View& view, graph::Terms& terms, const ActionModel& model,
+                            const std::string& query) {
+  std::vector<Attached> found;
+  for (auto& row : rows_of(view, terms, model, query, {"frame", "parent"}, 2)) {
+    found.push_back({std::move(row[0]), std::move(row[1])});
+  }
+  return found;
+}
+
+std::vector<ObjectAt> objects(const graph::View& view, graph::Terms& terms,
+                              const ActionModel& model, const std::string& query) {
+  std::vector<ObjectAt> found;
+  const std::size_t needed = &query == &model.add ? 2 : 1;
+  for (auto& row : rows_of(view, terms, model, query, {"object", "frame", "model"}, needed)) {
+    found.push_back({std::move(row[0]), std::move(row[1]), std::move(row[2])});
   }
   return found;
 }
@@ -108,10 +133,10 @@ FrameId frame_of(const Edit& edit, const ActionModel& model, const std::string& 
   return frame;
 }
 
-void ask_to_relate(const Rights* rights, const ActionCall& call, const std::string& frame) {
+void ask_to(const Rights* rights, const ActionCall& call, Act act, const std::string& what) {
   if (!rights) return;
-  if (const auto reason = rights->reason_against(call.who, Act::kRelate, frame)) {
-    refuse(frame, *reason, "a rule that allows " + call.who + " to change-relation");
+  if (const auto reason = rights->reason_against(call.who, act, what)) {
+    refuse(what, *reason, "a rule that allows " + call.who + " to " + std::string(to_string(act)));
   }
 }
 
@@ -142,6 +167,8 @@ ActionOutcome perform_in(World& world, const ActionModel& model, const ActionCal
   ActionOutcome outcome;
   outcome.attached = pairs(transaction.view(), terms, model, model.attach);
   outcome.detached = pairs(transaction.view(), terms, model, model.detach);
+  outcome.added = objects(transaction.view(), terms, model, model.add);
+  outcome.removed = objects(transaction.view(), terms, model, model.remove);
   rdf::sparql::UpdateOptions options;
   options.name = model.name;
   rdf::sparql::update(transaction, terms, model.effect, options);
@@ -161,16 +188,29 @@ ActionOutcome perform_in(World& world, const ActionModel& model, const ActionCal
     }
     std::sort(to->begin(), to->end());
   }
+  for (const auto& [object, frame, kind] : outcome.removed) {
+    ask_to(rights, call, Act::kModel, object);
+    const ObjectId there = edit.find_object(object);
+    if (!there) refuse(model.name, "it removes " + object + ", which is no object", "an object");
+    edit.remove(there);
+  }
   for (const auto& [frame, parent] : outcome.detached) {
-    ask_to_relate(rights, call, frame);
+    ask_to(rights, call, Act::kRelate, frame);
     edit.detach(frame_of(edit, model, frame), frame_of(edit, model, parent), call.now, call.who);
   }
   for (const auto& [frame, parent] : outcome.attached) {
-    ask_to_relate(rights, call, frame);
+    ask_to(rights, call, Act::kRelate, frame);
     edit.attach(frame_of(edit, model, frame), frame_of(edit, model, parent), call.now, call.who);
   }
-  transaction.commit();
-  if (!outcome.attached.empty() || !outcome.detached.empty()) edit.commit();
+  for (const auto& [object, frame, kind] : outcome.added) {
+    ask_to(rights, call, Act::kModel, object);
+    edit.add_object(object, frame_of(edit, model, frame), kind);
+  }
+  if (outcome.changes_structure()) {
+    edit.commit_with(transaction);
+  } else {
+    transaction.commit();
+  }
   return outcome;
 }
 
@@ -222,16 +262,22 @@ void Actions::add(ActionModel model) {
              "{x} for a selected variable ?x");
     }
   }
-  for (const std::string* query : {&model.attach, &model.detach}) {
-    if (query->empty()) continue;
-    const auto columns = ask(empty.view(), empty.terms(), model.name, *query).results.columns;
-    for (const char* needed : {"frame", "parent"}) {
-      if (std::find(columns.begin(), columns.end(), needed) == columns.end()) {
-        refuse(model.name, "what it attaches or detaches does not select ?" + std::string(needed),
-               "SELECT ?frame ?parent");
+  const auto check_columns = [&](const std::string& query, const char* what,
+                                 std::initializer_list<const char*> needed) {
+    if (query.empty()) return;
+    const auto columns = ask(empty.view(), empty.terms(), model.name, query).results.columns;
+    std::string all;
+    for (const char* name : needed) all += " ?" + std::string(name);
+    for (const char* name : needed) {
+      if (std::find(columns.begin(), columns.end(), name) == columns.end()) {
+        refuse(model.name, std::string(what) + " does not select ?" + name, "SELECT" + all);
       }
     }
-  }
+  };
+  check_columns(model.attach, "what it attaches or detaches", {"frame", "parent"});
+  check_columns(model.detach, "what it attaches or detaches", {"frame", "parent"});
+  check_columns(model.add, "what it adds", {"object", "frame"});
+  check_columns(model.remove, "what it removes", {"object"});
   rdf::sparql::QueryOptions options;
   options.name = model.name;
   rdf::sparql::check_update(empty.terms(), model.effect, options);

@@ -19,12 +19,14 @@
 // and after.
 //
 // The structure: each row of `attach` (SELECT ?frame ?parent) is attached, each of `detach`
-// detached towards the parent, as the situation before the effect has them. What the world's
-// description says follows from its structure, so an effect that changes it otherwise is refused.
+// detached towards the parent, each of `add` (SELECT ?object ?frame ?model; ?model may be left out)
+// becomes an object, each of `remove` (SELECT ?object) is none any more; as the situation before
+// the effect has them, first what is removed and detached. What the world's description says
+// follows from its structure, so an effect that changes it otherwise is refused.
 //
 // Performing is all of it, or nothing and an Error that names the action and every precondition
-// that fails. Facts and structure change one right after the other, the structure last. `predict`
-// does the same in a clone, and hands it over. Both are audited.
+// that fails. Facts, description and structure change at one instant (situation.h). `predict` does
+// the same in a clone, and hands it over. Both are audited.
 //
 // Threads: an action takes turns with edits, writes and clones of the world. Whoever else changes
 // the store, as rules do, takes turns with actions (graph::Terms).
@@ -61,6 +63,8 @@ struct ActionModel {
   std::string effect;       // SPARQL update
   std::string attach = {};  // SELECT ?frame ?parent, or nothing
   std::string detach = {};
+  std::string add = {};  // SELECT ?object ?frame ?model, or nothing
+  std::string remove = {};
 };
 
 struct ActionCall {
@@ -81,10 +85,19 @@ struct Attached {
   friend auto operator<=>(const Attached&, const Attached&) = default;
 };
 
+struct ObjectAt {
+  std::string object, frame, model;  // IRIs; of what is removed the first alone counts
+  friend auto operator<=>(const ObjectAt&, const ObjectAt&) = default;
+};
+
 struct ActionOutcome {
   // What holds now and did not, and the other way round; the description of the structure apart.
   std::vector<FactText> begun, ended;
   std::vector<Attached> attached, detached;  // in the order of the rows
+  std::vector<ObjectAt> added, removed;
+  bool changes_structure() const {
+    return !attached.empty() || !detached.empty() || !added.empty() || !removed.empty();
+  }
 };
 
 struct PredictedAction {
@@ -94,7 +107,8 @@ struct PredictedAction {
 
 // Who watches over actions; all may be left out.
 struct ActionSupervision {
-  // Act::kPerform on the action's IRI, Act::kRelate on each frame that is attached or detached.
+  // Act::kPerform on the action's IRI, Act::kRelate on each frame that is attached or detached,
+  // Act::kModel on each object that is added or removed.
   const Rights* rights = nullptr;
   std::shared_ptr<Audit> audit = nullptr;  // of both
   FactHistory* history = nullptr;          // observes what was performed, before and after

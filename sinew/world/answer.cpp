@@ -40,6 +40,10 @@ std::string_view to_string(Status status) {
       return "the history is full";
     case Status::kStatic:
       return "static, and has its value";
+    case Status::kNoRoom:
+      return "no room: the history's collector is behind";
+    case Status::kForbidden:
+      return "the rights do not allow it any more";
   }
   return "?";
 }

@@ -30,6 +30,8 @@ enum class Status : std::uint8_t {
   kReadOnly,       // write: a derived data block
   kFull,           // write: the history holds kMaximumHistory entries
   kStatic,         // write: a static measurement has its value already
+  kNoRoom,         // real-time write: the history's collector is behind (write_log.h)
+  kForbidden,      // whoever asks or writes may not, since the rights have changed (access.h)
 };
 std::string_view to_string(Status status);
 

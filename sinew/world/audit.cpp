@@ -18,6 +18,8 @@ std::string_view to_string(Act act) {
       return "perform-action";
     case Act::kPredict:
       return "predict-action";
+    case Act::kReadGraph:
+      return "read-graph";
   }
   return "unknown";
 }

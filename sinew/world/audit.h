@@ -29,6 +29,7 @@ enum class Act : std::uint8_t {
   kRead,     // read a measurement, or prepare a query that does
   kPerform,  // perform an action (action_effects.h)
   kPredict,  // ask what an action would lead to; changes nothing
+  kReadGraph,  // read a named graph, or the unnamed one
 };
 std::string_view to_string(Act act);
 

@@ -105,6 +105,7 @@ std::shared_ptr<const BlockSet> make_block_set(const std::string& measurement,
   }
   auto set = std::make_shared<BlockSet>();
   set->library = spec.library;
+  set->spec = spec;
   for (const bool realtime : {true, false}) {
     for (const BlockSpec& block : spec.blocks) {
       if (block.realtime != realtime) continue;

@@ -36,6 +36,7 @@ struct BlocksSpec {
   // kPosePrototype, for poses.
   std::string canonical = {};
   std::vector<BlockSpec> blocks = {};
+  std::string library_text = {};  // in the block language, for scenes that are written (scene.h)
 };
 
 // The declarations of the canonical forms, in the block language: to be appended to the text of a
@@ -58,6 +59,7 @@ struct DataBlock {
 
 struct BlockSet {
   std::shared_ptr<const data::Library> library;
+  BlocksSpec spec;  // that it was made of
   std::vector<DataBlock> blocks;  // real-time blocks first, otherwise as declared
   std::optional<std::size_t> find(std::string_view name) const;
 };

@@ -20,18 +20,22 @@ void copy(const Ring& from, Ring& to) {
 
 }  // namespace
 
-Cell::Cell(std::uint32_t values, std::uint32_t capacity, std::uint64_t owner, Epoch epoch)
+Cell::Cell(std::uint32_t values, std::uint32_t capacity, std::uint64_t owner, Epoch epoch,
+           std::shared_ptr<ChangeBoard> board)
     : capacity_(std::bit_ceil(std::max(capacity, kMinimumCapacity))),
       stride_(values + 1),
       mask_(capacity_ - 1),
-      owner_(owner) {
+      owner_(owner),
+      changes_(board ? board->add() : &own_changes_),
+      board_(std::move(board)) {
   rings_.push_back(std::make_unique<Ring>(capacity_, stride_));
   rings_.back()->since = epoch;
   current_.store(rings_.back().get(), std::memory_order_release);
 }
 
-Cell::Cell(const Cell& other, Epoch as_of, std::uint64_t owner, Epoch epoch)
-    : Cell(other.values(), other.capacity(), owner, epoch) {
+Cell::Cell(const Cell& other, Epoch as_of, std::uint64_t owner, Epoch epoch,
+           std::shared_ptr<ChangeBoard> board)
+    : Cell(other.values(), other.capacity(), owner, epoch, std::move(board)) {
   View from = other.view(as_of);
   while (!from.settled) from = other.view(as_of);
   copy(*from.ring, *rings_.back());
@@ -95,6 +99,7 @@ void Cell::append(Stamp stamp, const double* values, Epoch epoch, Ring*& spare) 
   const std::uint64_t head = head_.load(std::memory_order_relaxed);
   store(*ring, Head::count(head), stamp, values);
   head_.store(Head::next(head), std::memory_order_release);
+  count_change();
 }
 
 void Cell::prepare(Stamp stamp, const double* values, Epoch epoch, Ring*& spare) {
@@ -106,6 +111,7 @@ void Cell::prepare(Stamp stamp, const double* values, Epoch epoch, Ring*& spare)
 
 void Cell::finish() {
   head_.store(Head::next(head_.load(std::memory_order_relaxed)), std::memory_order_release);
+  count_change();
 }
 
 bool Cell::correct(Stamp at, const double* values, Epoch epoch, Ring*& spare) {
@@ -125,6 +131,7 @@ bool Cell::correct(Stamp at, const double* values, Epoch epoch, Ring*& spare) {
   if (replaces) {
     store(*ring, place - 1, at, values);
     head_.store(counted | corrections, std::memory_order_release);
+    count_change();
     return true;
   }
   for (std::uint64_t entry = count; entry > place; --entry) {
@@ -136,6 +143,7 @@ bool Cell::correct(Stamp at, const double* values, Epoch epoch, Ring*& spare) {
   }
   store(*ring, place, at, values);
   head_.store((count + 1) << Head::kCountShift | corrections, std::memory_order_release);
+  count_change();
   return true;
 }
 
@@ -151,6 +159,7 @@ void Cell::finish_replacing(Stamp stamp, const double* values) {
   const std::uint64_t head = head_.load(std::memory_order_relaxed);
   store(*current_.load(std::memory_order_relaxed), Head::count(head) - 1, stamp, values);
   head_.store(head & ~Head::kCorrecting, std::memory_order_release);
+  count_change();
 }
 
 void Cell::join_batch(std::shared_ptr<const BatchState> batch) {

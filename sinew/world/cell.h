@@ -27,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "sinew/world/change_board.h"
 #include "sinew/world/clock.h"
 
 namespace sinew::world {
@@ -78,15 +79,20 @@ struct Head {
 
 class alignas(64) Cell {
  public:
-  // `owner` is the token of the world that may write it. Precondition: limits as above.
-  Cell(std::uint32_t values, std::uint32_t capacity, std::uint64_t owner, Epoch epoch);
+  // `owner` is the token of the world that may write it. Precondition: limits as above. Its
+  // changes are counted on the board, where there is one.
+  Cell(std::uint32_t values, std::uint32_t capacity, std::uint64_t owner, Epoch epoch,
+       std::shared_ptr<ChangeBoard> board = nullptr);
   // A cell of another world's with the same entries, as they were at `as_of`.
-  Cell(const Cell& other, Epoch as_of, std::uint64_t owner, Epoch epoch);
+  Cell(const Cell& other, Epoch as_of, std::uint64_t owner, Epoch epoch,
+       std::shared_ptr<ChangeBoard> board = nullptr);
   Cell& operator=(const Cell&) = delete;
 
   std::uint32_t values() const { return stride_ - 1; }
   std::uint32_t capacity() const { return capacity_; }
   std::uint64_t owner() const { return owner_; }
+  // Counts whatever is written, after it is visible.
+  const ChangeCount& changes() const { return *changes_; }
 
   // ---- reading, any thread ----
 
@@ -158,6 +164,9 @@ class alignas(64) Cell {
   std::string claimed_by;
 
  private:
+  void count_change() {
+    changes_->store(changes_->load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  }
   Ring* writable(Epoch epoch, Ring*& spare);
   void store(Ring& ring, std::uint64_t entry, Stamp stamp, const double* values);
 
@@ -168,6 +177,9 @@ class alignas(64) Cell {
   std::uint32_t stride_;    // words of an entry
   std::uint64_t mask_;
   std::uint64_t owner_;
+  ChangeCount* changes_;
+  ChangeCount own_changes_ = 0;  // where there is no board
+  std::shared_ptr<ChangeBoard> board_;
   std::vector<std::unique_ptr<Ring>> rings_;
   std::vector<std::shared_ptr<const BatchState>> batches_;
 };

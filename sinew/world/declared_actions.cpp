@@ -42,8 +42,9 @@ struct ActionReader {
     std::sort(model.preconditions.begin(), model.preconditions.end(),
               [](const Precondition& a, const Precondition& b) { return a.message < b.message; });
     for (const auto& [term, text] :
-         {std::pair("attaches", &model.attach), std::pair("detaches", &model.detach)}) {
-      if (reader.has(node, w(term))) whole = read(node, term, "which frames", *text) && whole;
+         {std::pair("attaches", &model.attach), std::pair("detaches", &model.detach),
+          std::pair("adds", &model.add), std::pair("removes", &model.remove)}) {
+      if (reader.has(node, w(term))) whole = read(node, term, "what it changes", *text) && whole;
     }
     return whole ? std::optional(std::move(model)) : std::nullopt;
   }

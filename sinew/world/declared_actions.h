@@ -2,7 +2,8 @@
 //
 //   A a w:Action ; w:parameter P… ; w:effect "update" ;
 //     w:precondition [ w:query "ASK or SELECT" ; w:message "why not, with {x}" ]… ;
-//     w:attaches "SELECT ?frame ?parent …" ; w:detaches "SELECT ?frame ?parent …"
+//     w:attaches "SELECT ?frame ?parent …" ; w:detaches "SELECT ?frame ?parent …" ;
+//     w:adds "SELECT ?object ?frame ?model …" ; w:removes "SELECT ?object …"
 //
 // The texts are SPARQL (action_effects.h); preconditions are judged in the order of their messages.
 #pragma once

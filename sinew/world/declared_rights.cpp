@@ -23,12 +23,13 @@ struct RightsReader {
   std::optional<Act> act(Id rule) {
     const auto word = reader.one(rule, w("act"), "what the rule is about");
     if (!word) return std::nullopt;
-    for (const Act act : {Act::kMeasure, Act::kRelate, Act::kModel, Act::kRead, Act::kPerform}) {
+    for (const Act act :
+         {Act::kMeasure, Act::kRelate, Act::kModel, Act::kRead, Act::kPerform, Act::kReadGraph}) {
       if (reader.text(*word) == to_string(act)) return act;
     }
     reader.error(rule, w("act"), "there is no act '" + std::string(reader.text(*word)) + "'",
-                 "write-measurement, change-relation, change-model, read-measurement or "
-                 "perform-action");
+                 "write-measurement, change-relation, change-model, read-measurement, read-graph "
+                 "or perform-action");
     return std::nullopt;
   }
 

@@ -7,8 +7,9 @@
 //   R a w:SingleWriter;           w:what X             nobody but one component may say that it
 //   writes
 //
-// A is "write-measurement", "change-relation", "change-model", "read-measurement" or
-// "perform-action"; X is the IRI of an element of the world, of an action, or w:Anything. Rules may
+// A is "write-measurement", "change-relation", "change-model", "read-measurement", "read-graph" or
+// "perform-action"; X is the IRI of an element of the world, of an action, of a graph
+// (w:UnnamedGraph among them), or w:Anything. Rules may
 // name several C, and several X.
 #pragma once
 

@@ -7,7 +7,8 @@
 //   S a shape:Box ; shape:size (x y z) | shape:Sphere ; shape:radius r
 //     | shape:Cylinder ; shape:radius r ; shape:length l
 //     | w:Polygon ; w:outline ((x y) …) ; w:bottom z ; w:top z
-//     | w:MeshBounds ; w:lowest (x y z) ; w:highest (x y z) ;
+//     | w:MeshBounds ; w:lowest (x y z) ; w:highest (x y z)
+//     | shape:Mesh ; shape:file "package://cell/bolt.stl" ; shape:scale (x y z) ;
 //     geom-coord:as-seen-by F ; qudt:unit U ; w:position (x y z) ; w:quaternion (x y z w)
 //   M w:covariance C             C is w:Exact, or
 //   C a w:PoseCovariance ; geom-coord:as-seen-by F ; w:angular-deviation a ; w:linear-deviation b
@@ -16,6 +17,9 @@
 //   R a w:RelationRule ; w:called "on" ; w:axes "space" ; w:bodies 2 ; w:condition K
 //   K w:measures "height-gap" ; w:minimum n ; w:maximum n ; w:maximum-of "reach" ; qudt:unit U
 //   O w:declares N ;  N w:property "reach" ; w:number n ; qudt:unit U
+//
+// A mesh counts as the box along its own axes that holds its vertices (mesh_file.h); the unit is that
+// of the file's numbers after scaling, and the scale is 1 where there is none.
 //
 // The shape's own axes are those of the frame that sees it, moved by its position and quaternion
 // where they are stated. That frame is the body's own, or one whose pose in it is constant.
@@ -29,6 +33,7 @@
 #include "sinew/base/error.h"
 #include "sinew/graph/places.h"
 #include "sinew/graph/store.h"
+#include "sinew/world/mesh_file.h"
 #include "sinew/world/qualitative.h"
 #include "sinew/world/space.h"
 #include "sinew/world/uncertain_path.h"
@@ -40,6 +45,9 @@ struct DeclaredShape {
   std::string iri;  // empty: a blank node
   FrameId seen_by;
   Shape shape;  // placed in that frame
+  // Of bounds that were taken from a mesh: its file as the model names it, and its scale.
+  std::string mesh_file = {};
+  Vector3 mesh_scale = {1, 1, 1};
 };
 
 struct DeclaredNumber {
@@ -81,7 +89,7 @@ struct DeclaredScene {
 // For a world that load_scene (and add_robot) has filled. What is wrong is in the report, with its
 // place, and left out of the result.
 DeclaredScene read_scene(const World& world, graph::Store& store, const graph::Places& places,
-                         Report& report);
+                         Report& report, const MeshFiles& meshes = {});
 
 // ---- from what is declared to what answers ----
 

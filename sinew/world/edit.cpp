@@ -1,5 +1,6 @@
 #include "sinew/world/edit.h"
 
+#include <optional>
 #include <thread>
 
 #include "sinew/world/impl.h"
@@ -147,11 +148,18 @@ MeasurementId Edit::add_measurement(const MeasurementSpec& spec) {
       .next = relation.first_measurement,
       .quantity = spec.quantity,
       .alive = true,
-      .cell = std::make_shared<Cell>(values, capacity, world_->token, epoch),
+      .cell =
+          std::make_shared<Cell>(values, capacity, world_->token, epoch, world_->family->changes),
       .model = std::make_shared<const MeasurementModel>(spec.model),
       .blocks = blocks,
       .block_cells = blocks ? block_cells : nullptr,
-      .history = spec.keep_all ? std::make_shared<const History>() : nullptr};
+      .history = nullptr,
+      .published = nullptr};
+  if (spec.keep_all) {
+    MeasurementRecord& record = next_.measurements.edit(index, token_);
+    record.history = std::make_shared<const History>();
+    record.published = std::make_shared<PublishedHistory>(world_->family->readers, record.history);
+  }
   next_.relations.edit(spec.relation.index, token_).first_measurement = index;
   next_.by_name.edit(name.value, token_) = {ElementKind::kMeasurement, index};
   touch(ElementKind::kMeasurement, index);
@@ -418,10 +426,26 @@ FrameId Edit::find_frame(std::string_view iri) const {
   return element.kind == ElementKind::kFrame ? FrameId{element.index} : FrameId{};
 }
 
-void Edit::commit_keeping_lock() {
+ObjectId Edit::find_object(std::string_view iri) const {
+  const Element element = next_.find(world_->family->names.find(iri));
+  return element.kind == ElementKind::kObject ? ObjectId{element.index} : ObjectId{};
+}
+
+void Edit::commit_keeping_lock(graph::Transaction* facts) {
   if (!lock_) refuse(world_->iri, "an edit that was committed before", "begin a new one");
-  if (world_->symbols) world_->symbols->update(world_->state, next_, touched_);
+  std::optional<graph::Transaction> own;
+  if (world_->symbols) {
+    if (!facts) facts = &own.emplace(world_->symbols->store.begin());
+    world_->symbols->update(*facts, world_->state, next_, touched_);
+  }
+  const std::lock_guard instant(world_->instant);
+  if (facts) facts->commit();
   world_->publish(std::move(next_));
+}
+
+void Edit::commit_with(graph::Transaction& facts) {
+  commit_keeping_lock(&facts);
+  lock_.unlock();
 }
 
 void Edit::commit() {

@@ -38,18 +38,23 @@ class Edit {
   void set_value(MeasurementId measurement, Stamp stamp, std::span<const double> values);
 
   FrameId find_frame(std::string_view iri) const;  // index kNone where there is none
+  ObjectId find_object(std::string_view iri) const;
   // The pose as this edit's structure has it.
   PoseAnswer pose(FrameId of, FrameId with_respect_to, Stamp now) const;
   const State& state() const { return next_; }
 
   void commit();
+  // Together with what a transaction on the world's graph has changed: whoever asks for both at once
+  // (World::situation), and whoever asks the graph alone, sees all of it or nothing.
+  void commit_with(graph::Transaction& facts);
 
  private:
   friend class World;
   friend struct Merger;
   explicit Edit(std::shared_ptr<WorldImpl> world);
   Name new_name(std::string_view iri);
-  void commit_keeping_lock();  // no other edit comes between; the edit's end lets the lock go
+  // No other edit comes between; the edit's end lets the lock go.
+  void commit_keeping_lock(graph::Transaction* facts = nullptr);
   void touch(ElementKind kind, Index index) { touched_.push_back({kind, index}); }
   void unlink(Index relation, Index frame);
   RelationId attach_with(FrameId frame, FrameId parent, const Pose& pose, Stamp now,

@@ -11,6 +11,7 @@ namespace {
 void let_go(const std::shared_ptr<WorldImpl>& world, const std::unique_ptr<WriterState>& state) {
   if (!world || !state) return;
   const std::lock_guard lock(world->editing);
+  collect(*world, *state);
   std::erase(world->writers, state.get());
   state->each([](WriterState::Target& target) { target.cell->claimed_by.clear(); });
 }
@@ -53,6 +54,23 @@ std::optional<Stamp> last_stamp(const Cell& cell) {
   const Cell::View view = cell.view(kNow);
   if (view.count == 0) return std::nullopt;
   return cell.stamp(view, view.count - 1);
+}
+
+// Earlier than all that a full ring holds.
+bool is_before_ring(const Cell& cell, Stamp stamp) {
+  const Cell::View view = cell.view(kNow);
+  return view.count >= cell.capacity() - 1 && stamp < cell.stamp(view, cell.oldest(view));
+}
+
+bool has_entry_of(const Cell& cell, Stamp stamp) {
+  const Cell::View view = cell.view(kNow);
+  return view.count > 0 && cell.stamp(view, cell.find(view, stamp)) == stamp;
+}
+
+std::uint64_t refused_by(const WriterState& state) {
+  std::uint64_t count = 0;
+  for (const auto& target : state.targets) count += target->log ? target->log->refused() : 0;
+  return count;
 }
 
 bool finite(const double* values, std::size_t count) {
@@ -122,9 +140,22 @@ Status Writer::write_values(Stamp stamp, const double* values, bool correction) 
   const std::optional<Stamp> last = last_stamp(cell);
   const bool past = last && stamp <= *last;
   if (past && !correction) return Status::kOutOfOrder;
+  if (state_->forbidden.load(std::memory_order_acquire)) return Status::kForbidden;
+  if (!target.log) return write_to_cell(stamp, values, past);
+  if (past && is_before_ring(cell, stamp)) return Status::kTooLate;
+  const bool inserts = !past || !has_entry_of(cell, stamp);
+  if (!target.log->has_room(cell, stamp, inserts)) return Status::kNoRoom;
+  const Status status = write_to_cell(stamp, values, past);
+  if (status == Status::kOk) target.log->push(stamp, values, past);
+  return status;
+}
+
+Status Writer::write_to_cell(Stamp stamp, const double* values, bool past) {
+  WriterState::Target& target = *state_->targets.front();
+  Cell& cell = *target.cell;
   const Writing writing(*state_, *world_);
   // Blocks hold the last value: one further back does not touch them.
-  if (past && target.blocks && stamp == *last) {
+  if (past && target.blocks && stamp == last_stamp(cell)) {
     Spare spare(target);
     cell.begin_replacing(writing.epoch, spare.ring);
     const std::uint64_t batch = open_batch(*state_->batch);
@@ -147,6 +178,8 @@ Status Writer::write_values(Stamp stamp, const double* values, bool correction) 
   cell.append(stamp, values, writing.epoch, spare.ring);
   return Status::kOk;
 }
+
+std::uint64_t Writer::refused() const { return refused_by(*state_); }
 
 Status Writer::write(Stamp stamp, const Pose& pose) {
   Pose X = pose;
@@ -215,6 +248,8 @@ BatchWriter& BatchWriter::operator=(BatchWriter&& other) noexcept {
 }
 BatchWriter::~BatchWriter() { let_go(world_, state_); }
 
+std::uint64_t BatchWriter::refused() const { return refused_by(*state_); }
+
 Status BatchWriter::write(Stamp stamp, std::span<const double> values) {
   if (values.size() != size_) return Status::kNotANumber;
   const double* from = values.data();
@@ -227,6 +262,10 @@ Status BatchWriter::write(Stamp stamp, std::span<const double> values) {
     if (last && stamp <= *last) return Status::kOutOfOrder;
     from += count;
   }
+  if (state_->forbidden.load(std::memory_order_acquire)) return Status::kForbidden;
+  for (const auto& target : state_->targets) {
+    if (target->log && !target->log->has_room(*target->cell, stamp, true)) return Status::kNoRoom;
+  }
   const Writing writing(*state_, *world_);
   const std::uint64_t batch = open_batch(*state_->batch);
   from = values.data();
@@ -236,6 +275,7 @@ Status BatchWriter::write(Stamp stamp, std::span<const double> values) {
     std::copy(from, from + count, checked);
     make_acceptable(target->is_pose, checked, count);
     prepare(*target, stamp, checked, writing.epoch);
+    if (target->log) target->log->push(stamp, checked, false);
     from += count;
   }
   commit_batch(*state_, batch);

@@ -6,9 +6,9 @@
 // (MeasurementModel::used_by) has said to be done with; without declared users it keeps all, up to
 // kMaximumHistory.
 //
-// Queries of the past that the ring no longer covers are answered from here (World::at,
-// PreparedPose::at, PreparedMotion::at; not in real time), with what corrections have made of it,
-// back to the last entry that was let go.
+// Queries of the past that the ring no longer covers are answered from here, in real time too
+// (published_history.h), with what corrections have made of it, back to the last entry that was let
+// go. A real-time writer's entries come here by the collector (collector.h).
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,8 @@ struct History {
 };
 
 // Precondition: the history is nobody else's yet. Costs as many moves as there are later stamps.
-void append(History& history, HistoryEntryPointer entry);
+// Several may share a token (persistent_vector.h).
+void append(History& history, HistoryEntryPointer entry, EditToken token = fresh_token());
 // Lets go of the entries before number `first`.
 void let_go(History& history, std::size_t first);
 

@@ -1,8 +1,9 @@
 // The inside of a world, for the module's own functions.
 //
 // Locks, in the order in which they are taken: `editing` (one structural edit, ordinary write,
-// clone or claim at a time) or `packing` (of links), then `publishing` (the published state, a few
-// instructions), then the family's.
+// clone or claim at a time) or `packing` (of links), then `instant` (the state and the graph change
+// together, or are taken together), then `publishing` (the published state, a few instructions),
+// then the family's.
 #pragma once
 
 #include <algorithm>
@@ -22,6 +23,8 @@ namespace sinew::world {
 // What a world shares with its clones.
 struct Family {
   Names names;
+  std::shared_ptr<ChangeBoard> changes = std::make_shared<ChangeBoard>();
+  std::shared_ptr<ReaderPlaces> readers = std::make_shared<ReaderPlaces>();  // of the past
   std::mutex mutex;
   // For each owner of cells: the epochs that living clones see it at, and how many see each.
   std::map<std::uint64_t, std::map<Epoch, std::size_t>> seen;
@@ -61,6 +64,7 @@ struct WorldImpl {
   std::atomic<Epoch> epoch = 1;              // clones made so far, and one
   std::atomic<std::uint64_t> structure = 1;  // structural edits so far, and one
   std::mutex editing;
+  mutable std::mutex instant;
   mutable std::mutex publishing;
   State state;                        // the published one
   State origin;                       // of a clone: the state it began with
@@ -72,7 +76,7 @@ struct WorldImpl {
   std::shared_ptr<const Links> links;  // of the structure's version `links_of`
   std::uint64_t links_of = 0;
   std::unique_ptr<Symbols> symbols;          // the graph, once it is needed (symbols.h)
-  std::optional<graph::Snapshot> inherited;  // of a clone: what the original\'s graph held
+  std::optional<graph::Snapshot> inherited;  // of a clone: what the original's graph held
 
   State published() const {
     const std::lock_guard lock(publishing);
@@ -113,6 +117,15 @@ Cell& own_cell(WorldImpl& world, MeasurementId measurement);
 // Writes a value that `acceptable` has passed; `editing` is held.
 Status write_checked(WorldImpl& world, MeasurementId measurement, Stamp stamp,
                      const std::vector<double>& values, std::string_view provenance);
+
+// The next version of a measurement's history; `editing` is held.
+void keep(WorldImpl& world, MeasurementId measurement, History history);
+// What a handle has written since the last time, into the histories; `editing` is held. Returns how
+// many entries.
+std::size_t collect(WorldImpl& world, WriterState& writer);
+// Of a clone that nobody has yet: what the handle's log had not given to the histories when it was
+// made is taken from the rings.
+void complete_histories(WorldImpl& clone, const WriterState& writer, Epoch as_of);
 
 // Whether numbers can be a value of this quantity; makes quaternions exactly unit.
 bool acceptable(Quantity quantity, std::span<double> values);

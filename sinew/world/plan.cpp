@@ -163,27 +163,15 @@ struct Planner {
              "ask for parts of the way");
     }
     const MeasurementRecord& record = state.measurements[at];
-    Candidate candidate;
-    candidate.cell = record.cell.get();
-    candidate.as_of = as_of(record.cell->owner());
-    candidate.model = record.model.get();
-    candidate.measurement = {at};
-    candidate.quantity = record.quantity;
-    candidate.period = record.model->period;
-    const LifeCycle& life_cycle = record.model->life_cycle;
-    candidate.is_static = std::holds_alternative<Static>(life_cycle);
-    candidate.prediction = std::get_if<Prediction>(&life_cycle);
-    if (const auto* timed = std::get_if<TimeDependent>(&life_cycle)) {
-      candidate.validity = timed->validity;
-      candidate.expiry = timed->expiry;
-    } else if (candidate.prediction) {
-      candidate.validity = candidate.prediction->horizon;
-    }
-    candidate.is_timed = candidate.validity != kForever || candidate.expiry != Stamp::max() ||
-                         candidate.period != kForever;
+    plan->candidates.push_back(
+        candidate_of(record, MeasurementId{at}, as_of(record.cell->owner())));
     plan->keep.push_back(record.cell);
     plan->keep.push_back(record.model);
-    plan->candidates.push_back(candidate);
+    if (record.history) {
+      plan->keep.push_back(record.published);
+      plan->keep.push_back(record.history);
+      plan->keeps_past = true;
+    }
     return static_cast<std::uint32_t>(plan->candidates.size() - 1);
   }
 
@@ -278,6 +266,33 @@ struct Planner {
 };
 
 }  // namespace
+
+Candidate candidate_of(const MeasurementRecord& record, MeasurementId measurement, Epoch as_of) {
+  Candidate candidate;
+  candidate.cell = record.cell.get();
+  candidate.as_of = as_of;
+  candidate.model = record.model.get();
+  candidate.measurement = measurement;
+  candidate.quantity = record.quantity;
+  candidate.period = record.model->period;
+  const LifeCycle& life_cycle = record.model->life_cycle;
+  candidate.is_static = std::holds_alternative<Static>(life_cycle);
+  candidate.prediction = std::get_if<Prediction>(&life_cycle);
+  if (const auto* timed = std::get_if<TimeDependent>(&life_cycle)) {
+    candidate.validity = timed->validity;
+    candidate.expiry = timed->expiry;
+  } else if (candidate.prediction) {
+    candidate.validity = candidate.prediction->horizon;
+  }
+  candidate.is_timed = candidate.validity != kForever || candidate.expiry != Stamp::max() ||
+                       candidate.period != kForever;
+  if (as_of == kNow) {
+    candidate.published = record.published.get();
+  } else {
+    candidate.inherited = record.history.get();
+  }
+  return candidate;
+}
 
 std::shared_ptr<const Plan> make_plan(const State& state, const Names& names, const AsOf& as_of,
                                       const PoseQuery& query, bool motion,

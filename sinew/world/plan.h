@@ -22,11 +22,17 @@ struct Candidate {
   Duration validity = kForever;
   Stamp expiry = Stamp::max();
   Duration period = kForever;
+  // Where every entry is kept: what there is at each reading, or what a clone found.
+  const PublishedHistory* published = nullptr;
+  const History* inherited = nullptr;
   MeasurementId measurement;
   Quantity quantity = Quantity::kPose;
   bool is_static = false;
   bool is_timed = false;  // validity, expiry or period is declared
 };
+
+// Of a measurement that is seen as it was in that epoch.
+Candidate candidate_of(const MeasurementRecord& record, MeasurementId measurement, Epoch as_of);
 
 struct PlanStep {
   RelationKind kind = RelationKind::kFree;
@@ -47,6 +53,7 @@ struct Plan {
   std::uint64_t structure_version = 0;
   std::vector<PlanStep> steps;
   std::vector<Candidate> candidates;
+  bool keeps_past = false;  // some candidate has a history
   bool has_tail = false;
   Pose tail;
   std::vector<SymbolicStep> symbolic;
@@ -62,16 +69,12 @@ std::shared_ptr<const Plan> make_plan(const State& state, const Names& names, co
                                       std::uint64_t structure_version);
 
 // The last entries, predicted to `now`; or the state at a time. Bounded, no allocation, no lock.
+// What a ring no longer covers is taken from the history, for whoever has a place among its readers
+// (published_history.h).
 void read_latest(const Plan& plan, Stamp now, Policy policy, PoseAnswer& answer);
-void read_at(const Plan& plan, Stamp time, Policy policy, PoseAnswer& answer);
-void read_latest_common(const Plan& plan, Policy policy, PoseAnswer& answer);
-void read_motion(const Plan& plan, Stamp time, bool latest, Policy policy, MotionAnswer& answer);
-
-// The state at a time that some ring no longer covers, with the histories of `past`; not for
-// real-time threads. kBusy when `past` is older than what the rings begin with: take a newer one.
-void read_at_past(const Plan& plan, const State& past, Stamp time, Policy policy,
-                  PoseAnswer& answer);
-void read_motion_past(const Plan& plan, const State& past, Stamp time, Policy policy,
-                      MotionAnswer& answer);
+void read_at(const Plan& plan, Stamp time, Policy policy, ReaderPlace* reader, PoseAnswer& answer);
+void read_latest_common(const Plan& plan, Policy policy, ReaderPlace* reader, PoseAnswer& answer);
+void read_motion(const Plan& plan, Stamp time, bool latest, Policy policy, ReaderPlace* reader,
+                 MotionAnswer& answer);
 
 }  // namespace sinew::world

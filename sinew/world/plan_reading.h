@@ -22,12 +22,26 @@ struct PlanReading {
   Cell::View views[kMaximumPlanCells];
   Used used[kMaximumPlanCells];
   std::size_t uses;
-  // Whose histories answer for what rings no longer cover; null: nobody's, as in real time.
-  const State* past = nullptr;
+  ReaderPlace* reader = nullptr;  // of histories; null: rings alone
+};
 
-  const History* history(MeasurementId measurement) const {
-    return past ? past->measurements[measurement.index].history.get() : nullptr;
+// The history that answers for what the candidate's ring no longer covers, while it is looked at.
+class HeldHistory {
+ public:
+  HeldHistory(const Candidate& from, ReaderPlace* reader)
+      : reader_(from.published ? reader : nullptr),
+        history_(reader_ ? from.published->hold(*reader_) : from.inherited) {}
+  ~HeldHistory() {
+    if (reader_) PublishedHistory::let_go(*reader_);
   }
+  HeldHistory(const HeldHistory&) = delete;
+  HeldHistory& operator=(const HeldHistory&) = delete;
+  const History* get() const { return history_; }
+  bool is_busy() const { return reader_ && !history_; }
+
+ private:
+  ReaderPlace* reader_;
+  const History* history_;
 };
 
 inline bool collect(const Plan& plan, PlanReading& reading) {
@@ -91,9 +105,9 @@ Status read_one(const Plan& plan, std::uint32_t candidate, Stamp time, PlanReadi
                                : read_between(from, view, time, values, gathered);
   reading.used[reading.uses++] = {candidate, read.first};
   if (kWhen == When::kAt && read.status == Status::kTooOld) [[unlikely]] {
-    if (const History* const history = reading.history(from.measurement)) {
-      return read_past(from, *history, time, values, gathered);
-    }
+    const HeldHistory history(from, reading.reader);
+    if (history.is_busy()) return Status::kBusy;
+    if (history.get()) return read_past(from, *history.get(), time, values, gathered);
   }
   return read.status;
 }
@@ -107,8 +121,10 @@ Status read_step(const Plan& plan, const PlanStep& step, Stamp time, PlanReading
   Status status = read_one<kWhen>(plan, candidate, time, reading, values, gathered);
   if (status == Status::kOk) [[likely]]
     return status;
-  bounds = bounds_of(plan.candidates[candidate], reading.views[candidate],
-                     reading.history(plan.candidates[candidate].measurement));
+  {
+    const HeldHistory history(plan.candidates[candidate], reading.reader);
+    bounds = bounds_of(plan.candidates[candidate], reading.views[candidate], history.get());
+  }
   for (std::uint32_t i = step.first; i < step.first + step.count; ++i) {
     if (i == candidate) continue;
     if (read_one<kWhen>(plan, i, time, reading, values, gathered) == Status::kOk)

@@ -5,16 +5,18 @@
 namespace sinew::world {
 namespace {
 
-std::shared_ptr<const Plan> checked(std::shared_ptr<const Plan> plan,
-                                    const std::shared_ptr<const PlanGuard>& guard) {
-  if (guard) (*guard)(*plan);
-  return plan;
+bool is_forbidden(const std::shared_ptr<const Permit>& permit) {
+  return permit && !permit->holds.load(std::memory_order_acquire);
 }
 
-// Whether the past is to be asked: at first where a ring does not go back so far, then again where
-// entries came while it was asked.
-bool asks_histories(Status status, int attempt) {
-  return attempt == 0 ? status == Status::kTooOld : status == Status::kBusy;
+// A new plan, when whoever asks may use it; and a place to read histories, when it needs one.
+void plan_anew(const std::shared_ptr<WorldImpl>& world, const PoseQuery& query, bool motion,
+               const std::shared_ptr<const PlanGuard>& guard, std::shared_ptr<const Plan>& plan,
+               std::shared_ptr<const Permit>& permit, OwnReaderPlace& place) {
+  std::shared_ptr<const Plan> next = world->plan(query, motion);
+  if (guard) permit = (*guard)(*next);
+  if (next->keeps_past && !place.get()) place = OwnReaderPlace(world->family->readers);
+  plan = std::move(next);
 }
 
 }  // namespace
@@ -28,26 +30,38 @@ PreparedPose::PreparedPose(std::shared_ptr<WorldImpl> world, PoseQuery query,
 bool PreparedPose::is_current() const {
   return plan_->structure_version == world_->structure.load(std::memory_order_acquire);
 }
-void PreparedPose::refresh() { plan_ = checked(world_->plan(query_, false), guard_); }
+void PreparedPose::refresh() { plan_anew(world_, query_, false, guard_, plan_, permit_, place_); }
 Status PreparedPose::status() const { return plan_->status; }
 std::size_t PreparedPose::measured_steps() const { return plan_->steps.size(); }
 std::vector<SymbolicStep> PreparedPose::symbolic() const { return plan_->symbolic; }
 
 PoseAnswer PreparedPose::latest_realtime(Stamp now) const {
   PoseAnswer answer;
+  if (is_forbidden(permit_)) [[unlikely]] {
+    answer.status = Status::kForbidden;
+    return answer;
+  }
   read_latest(*plan_, now, query_.policy, answer);
   answer.structure_changed = !is_current();
   return answer;
 }
 PoseAnswer PreparedPose::at_realtime(Stamp time) const {
   PoseAnswer answer;
-  read_at(*plan_, time, query_.policy, answer);
+  if (is_forbidden(permit_)) [[unlikely]] {
+    answer.status = Status::kForbidden;
+    return answer;
+  }
+  read_at(*plan_, time, query_.policy, place_.get(), answer);
   answer.structure_changed = !is_current();
   return answer;
 }
 PoseAnswer PreparedPose::latest_common_realtime() const {
   PoseAnswer answer;
-  read_latest_common(*plan_, query_.policy, answer);
+  if (is_forbidden(permit_)) [[unlikely]] {
+    answer.status = Status::kForbidden;
+    return answer;
+  }
+  read_latest_common(*plan_, query_.policy, place_.get(), answer);
   answer.structure_changed = !is_current();
   return answer;
 }
@@ -57,14 +71,7 @@ PoseAnswer PreparedPose::latest(Stamp now) {
 }
 PoseAnswer PreparedPose::at(Stamp time) {
   if (!is_current()) refresh();
-  PoseAnswer answer = at_realtime(time);
-  for (int attempt = 0; attempt < kReadAttempts && asks_histories(answer.status, attempt);
-       ++attempt) {
-    const State past = world_->published();
-    read_at_past(*plan_, past, time, query_.policy, answer);
-    answer.structure_changed = !is_current();
-  }
-  return answer;
+  return at_realtime(time);
 }
 PoseAnswer PreparedPose::latest_common() {
   if (!is_current()) refresh();
@@ -80,7 +87,7 @@ PreparedMotion::PreparedMotion(std::shared_ptr<WorldImpl> world, PoseQuery query
 bool PreparedMotion::is_current() const {
   return plan_->structure_version == world_->structure.load(std::memory_order_acquire);
 }
-void PreparedMotion::refresh() { plan_ = checked(world_->plan(query_, true), guard_); }
+void PreparedMotion::refresh() { plan_anew(world_, query_, true, guard_, plan_, permit_, place_); }
 Status PreparedMotion::status() const { return plan_->status; }
 bool PreparedMotion::has_twist() const {
   return std::all_of(plan_->steps.begin(), plan_->steps.end(),
@@ -94,13 +101,21 @@ bool PreparedMotion::has_acceleration() const {
 
 MotionAnswer PreparedMotion::latest_realtime(Stamp now) const {
   MotionAnswer answer;
-  read_motion(*plan_, now, true, query_.policy, answer);
+  if (is_forbidden(permit_)) [[unlikely]] {
+    answer.status = Status::kForbidden;
+    return answer;
+  }
+  read_motion(*plan_, now, true, query_.policy, place_.get(), answer);
   answer.structure_changed = !is_current();
   return answer;
 }
 MotionAnswer PreparedMotion::at_realtime(Stamp time) const {
   MotionAnswer answer;
-  read_motion(*plan_, time, false, query_.policy, answer);
+  if (is_forbidden(permit_)) [[unlikely]] {
+    answer.status = Status::kForbidden;
+    return answer;
+  }
+  read_motion(*plan_, time, false, query_.policy, place_.get(), answer);
   answer.structure_changed = !is_current();
   return answer;
 }
@@ -110,14 +125,7 @@ MotionAnswer PreparedMotion::latest(Stamp now) {
 }
 MotionAnswer PreparedMotion::at(Stamp time) {
   if (!is_current()) refresh();
-  MotionAnswer answer = at_realtime(time);
-  for (int attempt = 0; attempt < kReadAttempts && asks_histories(answer.status, attempt);
-       ++attempt) {
-    const State past = world_->published();
-    read_motion_past(*plan_, past, time, query_.policy, answer);
-    answer.structure_changed = !is_current();
-  }
-  return answer;
+  return at_realtime(time);
 }
 
 }  // namespace sinew::world

@@ -6,8 +6,8 @@
 // `at` the state of each at one time, between entries or by a model. All measurements of one answer
 // are read at one instant: what a batch wrote is in the answer whole or not at all.
 //
-// What a ring no longer covers, `at` takes from the measurement's history, where one is kept
-// (history.h); `at_realtime` never does.
+// What a ring no longer covers is taken from the measurement's history, where one is kept
+// (history.h), in real time too: a search among immutable entries.
 //
 // Every answer has a freshness; it is judged at `now`, or at the time that was asked for.
 //
@@ -17,6 +17,7 @@
 // by one thread at a time; copies are independent.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -25,6 +26,7 @@
 
 #include "sinew/world/answer.h"
 #include "sinew/world/ids.h"
+#include "sinew/world/published_history.h"
 #include "sinew/world/state.h"
 
 namespace sinew::world {
@@ -32,8 +34,12 @@ namespace sinew::world {
 struct WorldImpl;
 struct Plan;
 
+// That whoever asks may (access.h). Taken back when rights change; answering only looks at it.
+struct Permit {
+  std::atomic<bool> holds = true;
+};
 // Looks at what a plan reads before it is used, and throws Error where somebody may not (reader.h).
-using PlanGuard = std::function<void(const Plan& plan)>;
+using PlanGuard = std::function<std::shared_ptr<const Permit>(const Plan& plan)>;
 
 // Which of several measurements of one relation is used.
 enum class Choice : std::uint8_t {
@@ -105,6 +111,8 @@ class PreparedPose {
   PoseQuery query_;
   std::shared_ptr<const PlanGuard> guard_;  // of every plan, when it is made; none: null
   std::shared_ptr<const Plan> plan_;
+  std::shared_ptr<const Permit> permit_;  // of that plan; null: nobody is asked
+  OwnReaderPlace place_;                  // where the plan reads histories
 };
 
 class PreparedMotion {
@@ -130,6 +138,8 @@ class PreparedMotion {
   PoseQuery query_;
   std::shared_ptr<const PlanGuard> guard_;  // of every plan, when it is made; none: null
   std::shared_ptr<const Plan> plan_;
+  std::shared_ptr<const Permit> permit_;  // of that plan; null: nobody is asked
+  OwnReaderPlace place_;                  // where the plan reads histories
 };
 
 }  // namespace sinew::world

@@ -34,6 +34,7 @@ struct Reading {
   State state;
   SceneNumbers numbers;
   model::GraphReader& reader;
+  const MeshFiles& meshes;
   DeclaredScene scene;
 
   Id w(std::string_view term) { return numbers.w(term); }
@@ -60,6 +61,7 @@ struct Reading {
         {vocab::shape::Cylinder, &Reading::cylinder},
         {vocab::w::Polygon, &Reading::polygon},
         {vocab::w::MeshBounds, &Reading::mesh_bounds},
+        {vocab::shape::Mesh, &Reading::mesh},
     };
     const Kind* kind = nullptr;
     int kinds = 0;
@@ -69,13 +71,9 @@ struct Reading {
       ++kinds;
     }
     if (kinds != 1) {
-      const bool mesh = reader.is_a(node, numbers.store.terms().iri(vocab::shape::Mesh));
       reader.error(node, reader.ids.type,
-                   mesh        ? "a mesh's file says how it looks, not how far it reaches"
-                   : kinds > 1 ? "a shape of several kinds"
-                               : "a shape of no known kind",
-                   mesh ? "w:MeshBounds, with the mesh's lowest and highest corner"
-                        : "one of Box, Sphere, Cylinder, Polygon, MeshBounds");
+                   kinds > 1 ? "a shape of several kinds" : "a shape of no known kind",
+                   "one of Box, Sphere, Cylinder, Polygon, MeshBounds, Mesh");
       return std::nullopt;
     }
     const auto scale = reader.scale(node, model::dimension::kLength, "the shape");
@@ -123,6 +121,28 @@ struct Reading {
     return MeshBounds{scale * *lowest, scale * *highest};
   }
 
+  std::optional<Vector3> mesh_scale(Id node) {
+    const Id property = numbers.store.terms().iri(vocab::shape::scale);
+    return reader.has(node, property) ? numbers.vector(node, property)
+                                      : std::optional(Vector3{1, 1, 1});
+  }
+  std::optional<Geometry> mesh(Id node, double unit) {
+    const auto file =
+        reader.one(node, numbers.store.terms().iri(vocab::shape::file), "the mesh's file");
+    const auto scale = mesh_scale(node);
+    if (!file || !scale) return std::nullopt;
+    try {
+      return world::mesh_bounds(
+          load_mesh(resolve_mesh(numbers.text(*file), meshes), unit * *scale));
+    } catch (const Error& error) {
+      for (const Problem& problem : error.problems()) {
+        reader.error(node, numbers.store.terms().iri(vocab::shape::file),
+                     problem.iri + ": " + problem.what, problem.remedy);
+      }
+      return std::nullopt;
+    }
+  }
+
   std::optional<DeclaredShape> shape(Id node) {
     const auto seen_by =
         reader.one(node, reader.ids.seen_by, "the frame that the shape is seen by");
@@ -135,7 +155,13 @@ struct Reading {
                    "a Frame of the scene or of its robots");
       return std::nullopt;
     }
-    return DeclaredShape{named(node), frame, {std::move(*geometry), *placement}};
+    DeclaredShape result{named(node), frame, {std::move(*geometry), *placement}};
+    if (const Id file = reader.view.object(node, numbers.store.terms().iri(vocab::shape::file))) {
+      result.mesh_file = numbers.text(file);
+      const auto scale = reader.scale(node, model::dimension::kLength, "the shape");
+      result.mesh_scale = scale.value_or(1) * mesh_scale(node).value_or(Vector3{1, 1, 1});
+    }
+    return result;
   }
 
   void body(Id node, DeclaredKind kind) {
@@ -398,12 +424,13 @@ struct Reading {
 }  // namespace
 
 DeclaredScene read_scene(const World& world, graph::Store& store, const graph::Places& places,
-                         Report& report) {
+                         Report& report, const MeshFiles& meshes) {
   model::GraphReader reader(store, places, report);
   Reading reading{.world = world,
                   .state = world.state(),
                   .numbers = {reader, store},
                   .reader = reader,
+                  .meshes = meshes,
                   .scene = {}};
   reading.run();
   return std::move(reading.scene);

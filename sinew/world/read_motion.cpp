@@ -87,12 +87,14 @@ void compose_motions(const Plan& plan, Stamp time, PlanReading& reading, MotionA
   answer.status = Status::kOk;
 }
 
-void read(const Plan& plan, Stamp time, bool latest, Policy policy, MotionAnswer& answer,
-          const State* past) {
+}  // namespace
+
+void read_motion(const Plan& plan, Stamp time, bool latest, Policy policy, ReaderPlace* reader,
+                 MotionAnswer& answer) {
   answer.status = plan.status;
   if (plan.status != Status::kOk) return;
   PlanReading reading;
-  reading.past = past;
+  reading.reader = reader;
   Gathered gathered;
   if (!at_one_instant(plan, reading, [&] {
         if (latest) {
@@ -105,17 +107,6 @@ void read(const Plan& plan, Stamp time, bool latest, Policy policy, MotionAnswer
     return;
   }
   finish(gathered, time, policy, answer);
-}
-
-}  // namespace
-
-void read_motion(const Plan& plan, Stamp time, bool latest, Policy policy, MotionAnswer& answer) {
-  read(plan, time, latest, policy, answer, nullptr);
-}
-
-void read_motion_past(const Plan& plan, const State& past, Stamp time, Policy policy,
-                      MotionAnswer& answer) {
-  read(plan, time, false, policy, answer, &past);
 }
 
 }  // namespace sinew::world

@@ -78,11 +78,11 @@ void compose_poses(const Plan& plan, Stamp time, PlanReading& reading, PoseAnswe
 
 template <When kWhen>
 void read_pose(const Plan& plan, Stamp time, Policy policy, PoseAnswer& answer,
-               const State* past = nullptr) {
+               ReaderPlace* reader = nullptr) {
   answer.status = plan.status;
   if (plan.status != Status::kOk) return;
   PlanReading reading;
-  reading.past = past;
+  reading.reader = reader;
   Gathered gathered;
   if (!at_one_instant(plan, reading,
                       [&] { compose_poses<kWhen>(plan, time, reading, answer, gathered); })) {
@@ -98,19 +98,15 @@ void read_latest(const Plan& plan, Stamp now, Policy policy, PoseAnswer& answer)
   read_pose<When::kLatest>(plan, now, policy, answer);
 }
 
-void read_at(const Plan& plan, Stamp time, Policy policy, PoseAnswer& answer) {
-  read_pose<When::kAt>(plan, time, policy, answer);
+void read_at(const Plan& plan, Stamp time, Policy policy, ReaderPlace* reader, PoseAnswer& answer) {
+  read_pose<When::kAt>(plan, time, policy, answer, reader);
 }
 
-void read_at_past(const Plan& plan, const State& past, Stamp time, Policy policy,
-                  PoseAnswer& answer) {
-  read_pose<When::kAt>(plan, time, policy, answer, &past);
-}
-
-void read_latest_common(const Plan& plan, Policy policy, PoseAnswer& answer) {
+void read_latest_common(const Plan& plan, Policy policy, ReaderPlace* reader, PoseAnswer& answer) {
   answer.status = plan.status;
   if (plan.status != Status::kOk) return;
   PlanReading reading;
+  reading.reader = reader;
   Gathered gathered;
   Stamp common;
   if (!at_one_instant(plan, reading, [&] {

@@ -1,97 +1,221 @@
 #include "sinew/world/reader.h"
 
+#include <algorithm>
 #include <set>
+#include <unordered_set>
 #include <utility>
 
+#include "sinew/world/fact_history.h"
 #include "sinew/world/impl.h"
-#include "sinew/world/refuse.h"
+#include "sinew/world/situation.h"
+#include "sinew/world/symbols.h"
 
 namespace sinew::world {
+namespace {
 
-struct Reader::Judge {
-  Rights rights;
-  std::string who;
-  std::shared_ptr<Audit> audit;
-
-  void ask(MeasurementId measurement, const std::string& name,
-           const MeasurementModel& model) const {
-    const auto reason = rights.reason_against_reading(who, name, model.used_by, model.provenance);
-    if (audit) {
-      audit->record({.act = Act::kRead,
-                     .accepted = !reason,
-                     .who = who,
-                     .what = name,
-                     .measurement = measurement,
-                     .reason = reason.value_or("")});
-    }
-    if (reason) {
-      refuse(name, *reason,
-             "name it in used_by, or a rule that allows " + who +
-                 " to read-measurement; a query "
-                 "may avoid the relation, or choose another provenance");
-    }
+// All measurements that a plan may read.
+std::vector<WantedReading> readings_of(const WorldImpl& world, const Plan& plan) {
+  const State state = world.published();
+  std::set<MeasurementId> found;
+  for (const SymbolicStep& step : plan.symbolic) found.insert(step.measurement_id);
+  for (const Candidate& candidate : plan.candidates) found.insert(candidate.measurement);
+  std::vector<WantedReading> wanted;
+  for (const MeasurementId measurement : found) {
+    const MeasurementRecord* const record = state.measurements.find(measurement.index);
+    // One that was removed since cannot be read with the next plan.
+    if (!record || !record->alive) continue;
+    wanted.push_back({measurement, world.family->names.text(record->name), record->model});
   }
+  return wanted;
+}
 
-  void ask(const World& world, MeasurementId measurement) const {
-    const auto model = world.model(measurement);
-    ask(measurement, world.name(measurement), *model);
-  }
-
-  void ask(const WorldImpl& world, const Plan& plan) const {
-    const State state = world.published();
-    std::set<MeasurementId> asked;
-    const auto once = [&](MeasurementId measurement) {
-      const MeasurementRecord* const record = state.measurements.find(measurement.index);
-      // One that was removed since cannot be read with the next plan.
-      if (!record || !record->alive || !asked.insert(measurement).second) return;
-      ask(measurement, world.family->names.text(record->name), *record->model);
-    };
-    for (const SymbolicStep& step : plan.symbolic) once(step.measurement_id);
-    for (const Candidate& candidate : plan.candidates) once(candidate.measurement);
-  }
-};
+}  // namespace
 
 Reader::Reader(const World& world, Rights rights, std::string who, std::shared_ptr<Audit> audit)
-    : world_(world),
-      judge_(std::make_shared<const Judge>(
-          Judge{std::move(rights), std::move(who), std::move(audit)})) {
+    : Reader(world, std::move(who),
+             std::make_shared<Authority>(std::move(rights), std::move(audit))) {}
+
+Reader::Reader(const World& world, std::string who, std::shared_ptr<Authority> authority)
+    : world_(&world), who_(std::move(who)), authority_(std::move(authority)) {
   // The prepared query keeps the world alive, and has this guard: no circle.
   guard_ = std::make_shared<const PlanGuard>(
-      [judge = judge_, impl = std::weak_ptr<WorldImpl>(world.impl_)](const Plan& plan) {
-        if (const auto alive = impl.lock()) judge->ask(*alive, plan);
+      [authority = authority_, who = who_, impl = std::weak_ptr<WorldImpl>(world.impl_)](
+          const Plan& plan) -> std::shared_ptr<const Permit> {
+        const auto alive = impl.lock();
+        return alive ? authority->permit(who, readings_of(*alive, plan)) : nullptr;
       });
 }
 
+WantedReading Reader::wanted(MeasurementId measurement) const {
+  return {measurement, world_->name(measurement), world_->model(measurement)};
+}
+void Reader::ask(MeasurementId measurement) const {
+  authority_->ask_to_read(who_, wanted(measurement));
+}
+bool Reader::may_read(MeasurementId measurement) const {
+  return !authority_->reason_against_reading(who_, wanted(measurement));
+}
+
+// ---- queries ----
+
 PreparedPose Reader::prepare_pose(const PoseQuery& query) const {
-  return {world_.impl_, query, guard_};
+  return {world_->impl_, query, guard_};
 }
 PreparedMotion Reader::prepare_motion(const PoseQuery& query) const {
-  return {world_.impl_, query, guard_};
+  return {world_->impl_, query, guard_};
 }
 PoseAnswer Reader::pose(FrameId of, FrameId with_respect_to, Stamp now) const {
   return prepare_pose({.of = of, .with_respect_to = with_respect_to}).latest(now);
 }
 
+UncertaintyGuard Reader::uncertainty_guard() const {
+  return [this](const Plan& plan, const std::vector<MeasurementId>& numbers) {
+    for (const WantedReading& each : readings_of(*world_->impl_, plan)) {
+      authority_->ask_to_read(who_, each);
+    }
+    for (const MeasurementId each : numbers) ask(each);
+  };
+}
+DistributedPose Reader::pose_distribution(const PoseQuery& query, const Uncertainties& known,
+                                          Stamp now, const CombineOptions& options) const {
+  return world::pose_distribution(*world_, query, known, now, options, uncertainty_guard());
+}
+DistributedPose Reader::pose_distribution_at(const PoseQuery& query, const Uncertainties& known,
+                                             Stamp time, const CombineOptions& options) const {
+  return world::pose_distribution_at(*world_, query, known, time, options, uncertainty_guard());
+}
+UncertainPose Reader::uncertain_pose(const PoseQuery& query, const Uncertainties& known, Stamp now,
+                                     Order order) const {
+  return world::uncertain_pose(*world_, query, known, now, order, uncertainty_guard());
+}
+PoseProgram Reader::pose_program(const PoseQuery& query, graph::Store& store,
+                                 std::string_view name) const {
+  prepare_pose(query);  // the program has the constants of the same plan
+  return make_pose_program(*world_, query, store, name);
+}
+
+// ---- single measurements ----
+
 World::Sample Reader::latest(MeasurementId measurement, Stamp now) const {
-  judge_->ask(world_, measurement);
-  return world_.latest(measurement, now);
+  ask(measurement);
+  return world_->latest(measurement, now);
 }
 World::Sample Reader::at(MeasurementId measurement, Stamp time) const {
-  judge_->ask(world_, measurement);
-  return world_.at(measurement, time);
+  ask(measurement);
+  return world_->at(measurement, time);
 }
 History Reader::history(MeasurementId measurement) const {
-  judge_->ask(world_, measurement);
-  return world_.history(measurement);
+  ask(measurement);
+  return world_->history(measurement);
 }
 Status Reader::read_blocks(MeasurementId measurement, std::span<const World::BlockBuffer> buffers,
                            Stamp* stamp) const {
-  judge_->ask(world_, measurement);
-  return world_.read_blocks(measurement, buffers, stamp);
+  ask(measurement);
+  return world_->read_blocks(measurement, buffers, stamp);
+}
+Status Reader::read_blocks_at(MeasurementId measurement, Stamp time,
+                              std::span<const World::BlockBuffer> buffers) const {
+  ask(measurement);
+  return world_->read_blocks_at(measurement, time, buffers);
 }
 std::shared_ptr<const MeasurementModel> Reader::model(MeasurementId measurement) const {
-  judge_->ask(world_, measurement);
-  return world_.model(measurement);
+  ask(measurement);
+  return world_->model(measurement);
+}
+
+// ---- triggers ----
+
+TriggerId Reader::listen(Triggers& triggers, JudgedTrigger trigger,
+                         std::shared_ptr<EventQueue> listener) const {
+  std::vector<WantedReading> reads;
+  TriggerSpec spec{.when = OnStructure{}, .priority = trigger.priority};
+  if (const auto* change = std::get_if<OnChange>(&trigger.when)) {
+    reads.push_back(wanted(change->measurement));
+    spec.when = *change;
+  } else if (auto* condition = std::get_if<JudgedCondition>(&trigger.when)) {
+    OnCondition judged;
+    if (condition->holds) {
+      judged.holds = [reader = *this, holds = std::move(condition->holds)](const World&,
+                                                                           Stamp now) {
+        try {
+          return holds(reader, now);
+        } catch (const Error&) {
+          return false;  // the audit has it
+        }
+      };
+    }
+    spec.when = std::move(judged);
+  } else if (const auto* cyclic = std::get_if<Cyclic>(&trigger.when)) {
+    spec.when = *cyclic;
+  }
+  auto permit = authority_->permit(who_, std::move(reads));
+  if (trigger.callback) {
+    spec.callback = [permit = std::move(permit),
+                     callback = std::move(trigger.callback)](const Event& event) {
+      if (permit->holds.load(std::memory_order_acquire)) callback(event);
+    };
+  }
+  return triggers.add(std::move(spec), std::move(listener));
+}
+
+// ---- the graph ----
+
+JudgedFacts Reader::judged(const graph::View& facts) const {
+  const graph::Terms& terms = facts.terms();
+  JudgedFacts result;
+  std::unordered_set<std::uint32_t> hidden;  // terms
+  const State state = world_->state();
+  const Names& names = world_->impl_->family->names;
+  for (Index at = 0; at < state.measurements.size(); ++at) {
+    const MeasurementRecord& record = state.measurements[at];
+    if (!record.alive) continue;
+    const std::string& name = names.text(record.name);
+    if (!authority_->reason_against_reading(who_, {MeasurementId{at}, name, record.model}))
+      continue;
+    result.left_out.push_back(name);
+    const auto hide = [&](std::string_view iri) {
+      if (const graph::Id term = terms.find_iri(iri)) hidden.insert(term.value);
+    };
+    hide(name);
+    hide(name + "/data");
+    for (std::size_t i = 0; record.blocks && i < record.blocks->blocks.size(); ++i) {
+      hide(record.blocks->blocks[i].name);
+    }
+  }
+  std::map<graph::Id, bool> readable;  // graphs
+  const auto keep = [&](const graph::Quad& quad) {
+    const auto [graph, fresh] = readable.try_emplace(quad.graph, true);
+    if (fresh) {
+      const std::string name(quad.graph ? terms.text(quad.graph) : kUnnamedGraph);
+      graph->second = !authority_->reason_against_graph(who_, name);
+      if (!graph->second) result.left_out.push_back(name);
+    }
+    return graph->second && !hidden.contains(quad.subject.value) &&
+           !hidden.contains(quad.object.value);
+  };
+  copy_facts(facts, result.store, keep);
+  std::sort(result.left_out.begin(), result.left_out.end());
+  return result;
+}
+
+JudgedFacts Reader::facts() const {
+  World same(world_->impl_);
+  const Situation situation = same.situation();
+  return judged(situation.facts);
+}
+
+JudgedFacts Reader::facts_at(const FactHistory& history, Stamp time) const {
+  World same(world_->impl_);
+  const graph::Store past = history.at(same.graph(), time);
+  return judged(past.view());
+}
+
+// ---- scenes ----
+
+void Reader::write_scene(const DeclaredScene& scene, graph::Store& store, Report& report,
+                         SceneWriting options) const {
+  options.leave_out_values = [this](MeasurementId measurement) { return !may_read(measurement); };
+  world::write_scene(*world_, scene, store, report, options);
 }
 
 }  // namespace sinew::world

@@ -98,7 +98,7 @@ CellReading read_between(const Candidate& from, const Cell::View& view, Stamp ti
 Status read_past(const Candidate& from, const History& history, Stamp time, double* values,
                  Gathered& gathered) {
   const std::optional<std::size_t> found = history.find(time);
-  if (!found) return history.covers_something() ? Status::kTooOld : Status::kBusy;
+  if (!found) return Status::kTooOld;
   const HistoryEntry& before = *history.by_time[*found];
   if (before.stamp == time) {
     std::copy(before.values.begin(), before.values.end(), values);

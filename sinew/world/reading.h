@@ -61,7 +61,7 @@ CellReading read_between(const Candidate& from, const Cell::View& view, Stamp ti
                          Gathered& gathered);
 
 // The same from all entries that are kept; kTooOld before them, kBusy after them (the ring has what
-// came since this version). Not for real-time threads.
+// came since this version).
 Status read_past(const Candidate& from, const History& history, Stamp time, double* values,
                  Gathered& gathered);
 

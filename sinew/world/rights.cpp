@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sinew/world/authority.h"
 #include "sinew/world/refuse.h"
 
 namespace sinew::world {
@@ -20,19 +21,10 @@ std::string forbidden_verb(Act act) {
     case Act::kPerform:
     case Act::kPredict:
       return " may not perform this action";
+    case Act::kReadGraph:
+      return " may not read this graph";
   }
   return " may not do this";
-}
-
-// The names of the measurements that there are, by number. Numbers are never used again, and are
-// the same in a clone.
-std::vector<std::string> names_of_measurements(const World& world) {
-  const State state = world.state();
-  std::vector<std::string> names(state.measurements.size());
-  for (Index at = 0; at < names.size(); ++at) {
-    if (state.measurements[at].alive) names[at] = world.name(MeasurementId{at});
-  }
-  return names;
 }
 
 }  // namespace
@@ -95,6 +87,22 @@ std::optional<std::string> Rights::reason_against_reading(std::string_view who,
   return refusal + ": its users are " + names;
 }
 
+std::optional<std::string> Rights::reason_against_graph(std::string_view who,
+                                                        std::string_view graph) const {
+  if (who.empty()) return "whoever reads does not say who it is";
+  const std::optional<bool> special = rule(who, Act::kReadGraph, graph);
+  const std::optional<bool> general = rule(who, Act::kReadGraph, kAnything);
+  const std::string refusal = std::string(who) + forbidden_verb(Act::kReadGraph);
+  if (special == false || general == false) return refusal + ": a rule forbids it";
+  if (special || general) return std::nullopt;
+  for (const auto& [key, allowed] : rules_) {
+    if (allowed && std::get<1>(key) == Act::kReadGraph && std::get<2>(key) == graph) {
+      return refusal + ": it is for those whom a rule allows to, and no rule allows it to";
+    }
+  }
+  return std::nullopt;
+}
+
 void Rights::require_single_writer(std::string_view what) {
   if (what.empty()) refuse(what, "a rule without a name", "the measurement, or kAnything");
   single_writers_.emplace(what);
@@ -105,64 +113,54 @@ bool Rights::single_writer(std::string_view what) const {
 
 void enforce(World& world, const Rights& rights, std::shared_ptr<Audit> audit) {
   // The guard runs while the world is locked: it knows all it needs and asks the world nothing.
-  world.set_write_guard([rights, audit = std::move(audit), names = names_of_measurements(world)](
-                            MeasurementId measurement, const MeasurementModel& model,
-                            std::string_view who) -> std::optional<std::string> {
-    const std::string what =
-        measurement.index < names.size() ? names[measurement.index] : std::string();
-    auto reason = rights.reason_against(who, Act::kMeasure, what, model.provenance);
-    if (audit) {
-      audit->record({.act = Act::kMeasure,
-                     .accepted = !reason,
-                     .who = std::string(who),
-                     .what = what,
-                     .measurement = measurement,
-                     .reason = reason.value_or("")});
-    }
-    return reason;
-  });
+  world.set_write_guard(
+      [rights, audit = std::move(audit)](MeasurementId measurement, std::string_view what,
+                                         const MeasurementModel& model,
+                                         std::string_view who) -> std::optional<std::string> {
+        auto reason = rights.reason_against(who, Act::kMeasure, what, model.provenance);
+        if (audit) {
+          audit->record({.act = Act::kMeasure,
+                         .accepted = !reason,
+                         .who = std::string(who),
+                         .what = std::string(what),
+                         .measurement = measurement,
+                         .reason = reason.value_or("")});
+        }
+        return reason;
+      });
 }
 
 Actor::Actor(World& world, Rights rights, std::string who, std::shared_ptr<Audit> audit)
-    : world_(world), rights_(std::move(rights)), who_(std::move(who)), audit_(std::move(audit)) {}
+    : Actor(world, std::make_shared<Authority>(std::move(rights), std::move(audit)),
+            std::move(who)) {}
+Actor::Actor(World& world, std::shared_ptr<Authority> authority, std::string who)
+    : world_(&world), authority_(std::move(authority)), who_(std::move(who)) {}
 
-void Actor::ask(Act act, std::string_view what) {
-  const auto reason = rights_.reason_against(who_, act, what);
-  if (audit_) {
-    audit_->record({.act = act,
-                    .accepted = !reason,
-                    .who = who_,
-                    .what = std::string(what),
-                    .measurement = {},
-                    .reason = reason.value_or("")});
-  }
-  if (reason)
-    refuse(what, *reason, "a rule that allows " + who_ + " to " + std::string(to_string(act)));
-}
+void Actor::ask(Act act, std::string_view what) { authority_->ask(who_, act, what); }
 
 RelationId Actor::add_relation(const RelationSpec& spec) {
   ask(Act::kRelate, spec.name);
-  return world_.add_relation(spec);
+  return world_->add_relation(spec);
 }
 void Actor::remove(RelationId relation) {
-  ask(Act::kRelate, world_.name(relation));
-  world_.remove(relation);
+  ask(Act::kRelate, world_->name(relation));
+  world_->remove(relation);
 }
 RelationId Actor::attach(FrameId frame, FrameId parent, Stamp now) {
-  ask(Act::kRelate, world_.name(frame));
-  return world_.attach(frame, parent, now, who_);
+  ask(Act::kRelate, world_->name(frame));
+  return world_->attach(frame, parent, now, who_);
 }
 RelationId Actor::detach(FrameId frame, FrameId parent, Stamp now) {
-  ask(Act::kRelate, world_.name(frame));
-  return world_.detach(frame, parent, now, who_);
+  ask(Act::kRelate, world_->name(frame));
+  return world_->detach(frame, parent, now, who_);
 }
 ObjectId Actor::add_object(std::string_view iri, FrameId frame, std::string_view model) {
   ask(Act::kModel, iri);
-  return world_.add_object(iri, frame, model);
+  return world_->add_object(iri, frame, model);
 }
 void Actor::remove(ObjectId object) {
-  ask(Act::kModel, world_.name(object));
-  world_.remove(object);
+  ask(Act::kModel, world_->name(object));
+  world_->remove(object);
 }
 
 void check_configuration(const World& world, const Rights& rights,

@@ -13,7 +13,8 @@
 //
 // A measurement that names its users (MeasurementModel::used_by) is read by them, by whoever is its
 // provenance, and by nobody else; one that names none by everybody. Rules are stronger here as
-// well. Reading asks nobody unless it is done through a Reader (reader.h).
+// well. Whoever has the World itself asks nobody: it is its owner's, and components get a Reader
+// (reader.h) or a Participant (participant.h).
 //
 // `enforce` puts itself where the world asks before each write (World::set_write_guard). Structure
 // is changed through an Actor, which asks first; World::edit is for the process that owns the
@@ -54,6 +55,10 @@ class Rights {
   std::optional<std::string> reason_against_reading(std::string_view who, std::string_view what,
                                                     std::span<const std::string> users,
                                                     std::string_view provenance) const;
+  // Of a graph of the world's store (reader.h): everybody reads it, unless a rule forbids it, or
+  // rules name who may.
+  std::optional<std::string> reason_against_graph(std::string_view who,
+                                                  std::string_view graph) const;
   std::size_t size() const { return rules_.size(); }
 
   // Of the measurement, or of kAnything: two that declare to write it are an error, not a warning
@@ -69,9 +74,11 @@ class Rights {
   std::set<std::string, std::less<>> single_writers_;
 };
 
+class Authority;
+
 // From now on every write and claim is judged by a copy of these rights, and recorded if there is
-// an audit. Rules that name measurements are for those that the world has now; call it again after
-// adding more.
+// an audit. Claims that there are already are judged again: a handle that may not any more writes
+// no more (Status::kForbidden).
 void enforce(World& world, const Rights& rights, std::shared_ptr<Audit> audit = nullptr);
 
 // Changes of the structure on behalf of a component. Each throws Error, with the element and the
@@ -79,6 +86,7 @@ void enforce(World& world, const Rights& rights, std::shared_ptr<Audit> audit = 
 class Actor {
  public:
   Actor(World& world, Rights rights, std::string who, std::shared_ptr<Audit> audit = nullptr);
+  Actor(World& world, std::shared_ptr<Authority> authority, std::string who);
 
   RelationId add_relation(const RelationSpec& spec);
   void remove(RelationId relation);
@@ -90,10 +98,9 @@ class Actor {
 
  private:
   void ask(Act act, std::string_view what);
-  World& world_;
-  Rights rights_;
+  World* world_;
+  std::shared_ptr<Authority> authority_;
   std::string who_;
-  std::shared_ptr<Audit> audit_;
 };
 
 // ---- before anything runs ----

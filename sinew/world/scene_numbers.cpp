@@ -115,8 +115,8 @@ std::optional<Duration> SceneNumbers::duration(Id node, std::string_view term) {
   return duration_of_seconds(seconds);
 }
 
-std::optional<Stamp> SceneNumbers::stamp(Id node) {
-  const Id property = w("stamp");
+std::optional<Stamp> SceneNumbers::stamp(Id node, std::string_view term) {
+  const Id property = w(term);
   if (!reader.has(node, property)) return Stamp();
   const auto value = reader.one(node, property, "the stamp");
   if (!value) return std::nullopt;

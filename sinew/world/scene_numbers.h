@@ -42,7 +42,7 @@ struct SceneNumbers {
   std::optional<Duration> duration(graph::Id node, std::string_view term);
   // w:stamp, to the nanosecond where it is an integer of nanoseconds; the beginning of the clock
   // where there is none.
-  std::optional<Stamp> stamp(graph::Id node);
+  std::optional<Stamp> stamp(graph::Id node, std::string_view term = "stamp");
 };
 
 }  // namespace sinew::world

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sinew/world/impl.h"
+#include "sinew/world/reader.h"
 #include "sinew/world/refuse.h"
 #include "sinew/world/region_part.h"
 
@@ -57,6 +58,15 @@ Space::Space(const World& world, FrameId frame, Policy policy)
   world::alive(world.impl(), world.state(), frame);
 }
 
+Space::Space(const Reader& reader, FrameId frame, Policy policy)
+    : Space(*reader.world_, frame, policy) {
+  reader_ = std::make_shared<const Reader>(reader);
+}
+
+PreparedPose Space::prepare(const PoseQuery& query) const {
+  return reader_ ? reader_->prepare_pose(query) : world_->prepare_pose(query);
+}
+
 BodyId Space::insert(Body body) {
   check(body.described, body.name);
   if (by_name_.contains(body.name)) {
@@ -67,6 +77,7 @@ BodyId Space::insert(Body body) {
   body.alive = true;
   body.placed = body.described;
   if (!body.area) unplaced_.push_back({index});
+  added_.push_back(index);
   bodies_.push_back(std::move(body));
   return {index};
 }
@@ -108,8 +119,10 @@ void Space::remove(BodyId id) {
   alive(id);
   Body& body = bodies_[id.index];
   take_out(body, id.index);
+  if (body.place != kNone) std::erase(places_[body.place].bodies, id.index);
   by_name_.erase(body.name);
   body.alive = false;
+  unplaced_changed_ = true;
   std::erase(unplaced_, id);
 }
 
@@ -117,16 +130,19 @@ void Space::remove(BodyId id) {
 void Space::place(Body& body, Index index, Update& counts) {
   const Place& place = places_[body.place];
   if (!place.answer) {
+    unplaced_changed_ = unplaced_changed_ || body.is_placed || body.is_new;
     take_out(body, index);
-    ++counts.unplaced;
+    body.is_new = false;
     return;
   }
-  if (body.is_placed && !place.moved) return;
+  if (body.is_placed && !place.moved && !body.is_new) return;
   ++counts.moved;
   for (std::size_t i = 0; i < body.described.size(); ++i) {
     body.placed[i].placement = compose(place.answer.pose, body.described[i].placement);
   }
+  unplaced_changed_ = unplaced_changed_ || !body.is_placed;
   body.is_placed = true;
+  body.is_new = false;
   if (body.area) return;
   const Bounds3 box = bounds(body.placed);
   boxes_[index] = box;
@@ -137,7 +153,7 @@ void Space::place(Body& body, Index index, Update& counts) {
   index_.set(index, body.indexed);
 }
 
-// What has gone, and what is attached elsewhere.
+// What has gone, and what is attached elsewhere; every way may be another one.
 void Space::follow_structure() {
   const State state = world_->state();
   for (Index i = 0; i < bodies_.size(); ++i) {
@@ -146,63 +162,173 @@ void Space::follow_structure() {
     const ObjectRecord& object = state.objects[body.object.index];
     if (!object.alive) {
       take_out(body, i);
+      if (body.place != kNone) std::erase(places_[body.place].bodies, i);
       by_name_.erase(body.name);
       body.alive = false;
+      unplaced_changed_ = true;
     } else if (object.frame != body.frame.index) {
+      if (body.place != kNone) std::erase(places_[body.place].bodies, i);
       body.frame = {object.frame};
       body.place = kNone;
-      body.is_placed = false;
+      body.is_new = true;
+      added_.push_back(i);
     }
+  }
+  for (Place& place : places_) {
+    place.is_stale = true;
+    plan_anew(place);
+  }
+  is_watching_ = false;
+}
+
+// Asked the other way round: ways are searched from `with_respect_to`, and a body's frame has few
+// relations where the space's may have one for every body.
+void Space::plan_anew(Place& place) const {
+  try {
+    if (place.query) {
+      place.query->refresh();
+    } else {
+      place.query = prepare({.of = frame_, .with_respect_to = place.frame, .policy = policy_});
+    }
+  } catch (const Error&) {
+    if (!reader_) throw;
+    place.query.reset();  // it may not read what is on the way; the audit has it
   }
 }
 
-void Space::read(Place& place, Stamp now) const {
-  const bool constant = place.query.measured_steps() == 0 && place.answer.status == Status::kOk;
-  if (constant && place.read_at_structure == structure_) {
-    place.moved = false;
-    return;
+// Looks at every count from now on; what is read afterwards is at least as new.
+void Space::watch_all() {
+  watched_.clear();
+  always_.clear();
+  for (Index i = 0; i < places_.size(); ++i) {
+    if (!places_[i].query) continue;
+    const Plan& plan = places_[i].query->plan();
+    std::size_t moving = 0;
+    bool is_predicted = false, is_timed = false;
+    for (const Candidate& candidate : plan.candidates) {
+      watched_.push_back({&candidate.cell->changes(), 0, i});
+      moving += !candidate.is_static;
+      is_predicted = is_predicted || candidate.prediction;
+      is_timed = is_timed || candidate.is_timed;
+    }
+    // Of one that moves it is known when time changes what is said of it (`read`).
+    if (is_predicted || (is_timed && moving > 1)) always_.push_back(i);
   }
+  std::sort(watched_.begin(), watched_.end(),
+            [](const Watched& a, const Watched& b) { return std::less<>()(a.count, b.count); });
+  for (Watched& each : watched_) each.seen = each.count->load(std::memory_order_acquire);
+  is_watching_ = true;
+}
+
+void Space::mark_changed() {
+  const auto mark = [this](Index i) {
+    if (!places_[i].is_stale) stale_.push_back(i);
+    places_[i].is_stale = true;
+  };
+  for (Watched& each : watched_) {
+    const std::uint32_t count = each.count->load(std::memory_order_acquire);
+    if (count == each.seen) [[likely]]
+      continue;
+    each.seen = count;
+    mark(each.place);
+  }
+  for (const Index i : always_) mark(i);
+  while (!rechecks_.empty() && rechecks_.top().at <= as_of_) {
+    const Recheck due = rechecks_.top();
+    rechecks_.pop();
+    if (places_[due.place].read_at == due.read_at) mark(due.place);
+  }
+}
+
+void Space::read(Index index) {
+  Place& place = places_[index];
   const PoseAnswer before = place.answer;
-  // Asked the other way round: ways are searched from `with_respect_to`, and a body's frame has few
-  // relations where the space's may have one for every body.
-  place.answer = place.query.latest(now);
-  place.answer.pose = invert(place.answer.pose);
+  place.is_stale = false;
+  place.read_at = as_of_;
+  if (!place.query) {
+    place.answer = {};
+    place.answer.status = Status::kForbidden;
+  } else {
+    place.answer = place.query->latest_realtime(as_of_);
+    place.answer.pose = invert(place.answer.pose);
+    for (const Candidate& candidate : place.query->plan().candidates) {
+      if (candidate.is_static || !candidate.is_timed || !place.answer) continue;
+      const Freshness& fresh = place.answer.freshness;
+      Stamp at = Stamp::max();
+      if (fresh.expires != Stamp::max() && fresh.expires >= as_of_) {
+        at = fresh.expires + Duration(1);
+      }
+      if (candidate.period != kForever) {
+        const Stamp stamp = as_of_ - fresh.currency;
+        const auto missed = static_cast<std::int64_t>(fresh.obsolescence);
+        at = std::min(at, stamp + (missed + 1) * candidate.period);
+      }
+      if (at != Stamp::max()) rechecks_.push({at, index, place.read_at});
+    }
+  }
   place.moved = before.status != place.answer.status || !same(before.pose, place.answer.pose);
-  place.read_at_structure = structure_;
 }
 
 Index Space::add_place(FrameId frame) {
   const auto [found, fresh] =
       place_of_.try_emplace(frame.index, static_cast<Index>(places_.size()));
   if (fresh) {
-    places_.push_back(
-        {.query = world_->prepare_pose({.of = frame_, .with_respect_to = frame, .policy = policy_}),
-         .answer = {}});
-    read(places_.back(), as_of_);
+    places_.push_back({.frame = frame, .query = std::nullopt});
+    plan_anew(places_.back());
+    is_watching_ = false;
   }
   return found->second;
 }
 
+void Space::list_unplaced() {
+  unplaced_.clear();
+  unplaced_areas_ = 0;
+  for (Index i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].alive || bodies_[i].is_placed) continue;
+    bodies_[i].area ? void(++unplaced_areas_) : unplaced_.push_back({i});
+  }
+  unplaced_changed_ = false;
+}
+
 Space::Update Space::update(Stamp now) {
+  const bool goes_back = now < as_of_;
   as_of_ = now;
   const std::uint64_t structure = world_->structure_version();
   if (structure != structure_) follow_structure();
   structure_ = structure;
-  for (Place& place : places_) read(place, now);
   add_place(frame_);  // where regions are asked for most
-  for (Body& body : bodies_) {
-    if (body.alive && body.place == kNone) body.place = add_place(body.frame);
+  std::vector<Index> added;
+  for (const Index i : added_) {
+    Body& body = bodies_[i];
+    if (!body.alive || body.place != kNone) continue;
+    body.place = add_place(body.frame);
+    places_[body.place].bodies.push_back(i);
+    added.push_back(i);
   }
+  added_.clear();
 
+  stale_.clear();
+  if (!is_watching_ || goes_back) {
+    watch_all();
+    for (Index i = 0; i < places_.size(); ++i) {
+      places_[i].is_stale = true;
+      stale_.push_back(i);
+    }
+  } else {
+    mark_changed();
+  }
   Update counts;
   boxes_.resize(bodies_.size());
-  unplaced_.clear();
-  for (Index i = 0; i < bodies_.size(); ++i) {
-    Body& body = bodies_[i];
-    if (!body.alive) continue;
-    place(body, i, counts);
-    if (!body.area && !body.is_placed) unplaced_.push_back({i});
+  for (const Index i : stale_) {
+    read(i);
+    for (const Index body : places_[i].bodies) place(bodies_[body], body, counts);
+    places_[i].moved = false;
   }
+  for (const Index i : added) {
+    if (bodies_[i].alive && bodies_[i].is_new) place(bodies_[i], i, counts);
+  }
+  if (unplaced_changed_) list_unplaced();
+  counts.unplaced = unplaced_.size() + unplaced_areas_;
   index_.settle();
   return counts;
 }
@@ -267,10 +393,19 @@ std::vector<BodyId> Space::bodies() const {
   return result;
 }
 
-const PoseAnswer& Space::pose(BodyId body) const {
-  static const PoseAnswer kNever;  // not updated since it was added
+// A place that nothing was written of has aged since it was read.
+PoseAnswer Space::aged(const Place& place) const {
+  PoseAnswer answer = place.answer;
+  if (answer && place.query->measured_steps() > 0) {
+    answer.freshness.currency += as_of_ - place.read_at;
+    answer.freshness.timeliness += as_of_ - place.read_at;
+  }
+  return answer;
+}
+
+PoseAnswer Space::pose(BodyId body) const {
   const Index place = alive(body).place;
-  return place == kNone ? kNever : places_[place].answer;
+  return place == kNone ? PoseAnswer() : aged(places_[place]);  // kNone: not updated since it came
 }
 
 const std::vector<Shape>& Space::shapes(BodyId body) const { return alive(body).placed; }
@@ -286,10 +421,16 @@ Status Space::status(BodyId body) const {
 
 PoseAnswer Space::pose_of(FrameId frame) const {
   if (const auto found = place_of_.find(frame.index); found != place_of_.end()) {
-    return places_[found->second].answer;  // of the last update, as everything else
+    return aged(places_[found->second]);  // of the last update, as everything else
   }
-  return world_->prepare_pose({.of = frame, .with_respect_to = frame_, .policy = policy_})
-      .latest(as_of_);
+  try {
+    return prepare({.of = frame, .with_respect_to = frame_, .policy = policy_}).latest(as_of_);
+  } catch (const Error&) {
+    if (!reader_) throw;
+    PoseAnswer refused;
+    refused.status = Status::kForbidden;
+    return refused;
+  }
 }
 
 }  // namespace sinew::world

@@ -7,16 +7,19 @@
 //   space.update(now);
 //   space.within("http://cell/storage-magazine", Match::kInside).bodies
 //
-// `update` reads the pose of every frame that can move and changes the index where something has
-// left its box; queries answer as of the last update. Poses are read one frame after the other, all
-// for the same `now`. What has no pose is in no answer and is named in each: `unplaced`.
+// `update` reads the poses of frames of which something was written since (change_board.h), or that
+// time itself changes (predictions, expiry), and changes the index where something has left its box;
+// queries answer as of the last update. Poses are read one frame after the other, all for the same
+// `now`. What has no pose is in no answer and is named in each: `unplaced`.
 //
 // One Space is used by one thread at a time; the world may be written meanwhile by any other. The
 // world stays where it is for as long as the Space lives. Structural edits are followed: objects
 // that are removed leave it, and those that are attached elsewhere move, with the next update.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <queue>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -27,6 +30,8 @@
 #include "sinew/world/world.h"
 
 namespace sinew::world {
+
+class Reader;
 
 struct BodyId {
   Index index = kNone;
@@ -54,6 +59,9 @@ class Space {
  public:
   // Where a pose has expired, Policy::kFilter leaves the body unplaced.
   Space(const World& world, FrameId frame, Policy policy = Policy::kInform);
+  // On behalf of a component: what it may not read has no place, with Status::kForbidden. Its
+  // rights are asked when a frame is first placed, and after structural edits.
+  Space(const Reader& reader, FrameId frame, Policy policy = Policy::kInform);
 
   // Shapes are described in the frame of the object, or in the given one. A body has the IRI of its
   // object or frame, which has one body at most. Throws Error for shapes that are none.
@@ -81,7 +89,7 @@ class Space {
   const World& world() const { return *world_; }
   Stamp as_of() const { return as_of_; }
   // Of the last update: the body's frame in frame(), and its shapes seen from there.
-  const PoseAnswer& pose(BodyId body) const;
+  PoseAnswer pose(BodyId body) const;
   const std::vector<Shape>& shapes(BodyId body) const;
   FrameId frame_of(BodyId body) const;
   bool is_placed(BodyId body) const;
@@ -91,10 +99,25 @@ class Space {
 
  private:
   struct Place {  // a frame that bodies are attached to
-    PreparedPose query;
-    PoseAnswer answer;
+    FrameId frame;
+    std::optional<PreparedPose> query;  // none: whoever asks may not
+    PoseAnswer answer = {};
+    Stamp read_at = {};
+    std::vector<Index> bodies = {};
+    bool is_stale = true;  // to be read at the next update
     bool moved = false;
-    std::uint64_t read_at_structure = 0;
+  };
+  // Cells whose counts lie side by side, and the places that depend on each.
+  struct Watched {
+    const ChangeCount* count;
+    std::uint32_t seen;
+    Index place;
+  };
+  struct Recheck {  // when time changes the answer of a place that nobody writes
+    Stamp at;
+    Index place;
+    Stamp read_at;  // of the reading that said so; another one since: of no meaning
+    friend bool operator<(const Recheck& a, const Recheck& b) { return a.at > b.at; }
   };
   struct Body {
     std::string name;
@@ -102,6 +125,7 @@ class Space {
     ObjectId object = {};  // none: attached to the frame itself
     FrameId frame;
     Index place = kNone;  // of the frame; kNone: not looked up since the frame changed
+    bool is_new = true;   // not yet placed, though its place may be known
     std::vector<Shape> described, placed = {};
     bool is_placed = false;
     bool is_indexed = false;
@@ -110,8 +134,14 @@ class Space {
   BodyId insert(Body body);
   const Body& alive(BodyId body) const;
   Index add_place(FrameId frame);
+  PreparedPose prepare(const PoseQuery& query) const;
   void follow_structure();
-  void read(Place& place, Stamp now) const;
+  void plan_anew(Place& place) const;
+  void watch_all();
+  void mark_changed();
+  void read(Index place);
+  PoseAnswer aged(const Place& place) const;
+  void list_unplaced();
   void place(Body& body, Index index, Update& counts);
   void take_out(Body& body, Index index);
   RegionAnswer search(const std::vector<Shape>& region, Match match) const;
@@ -127,6 +157,15 @@ class Space {
   std::vector<Place> places_;
   std::unordered_map<Index, Index> place_of_;  // by frame
   std::uint64_t structure_ = 0;                // the world's, at the last update
+  std::shared_ptr<const Reader> reader_;       // on whose behalf; null: the owner's
+  std::vector<Watched> watched_;               // in the order of their counts in memory
+  std::vector<Index> always_;                  // places that are read at each update
+  std::priority_queue<Recheck> rechecks_;
+  std::vector<Index> stale_;  // places to be read at this update
+  std::vector<Index> added_;  // bodies without a place yet
+  bool is_watching_ = false;
+  bool unplaced_changed_ = true;
+  std::size_t unplaced_areas_ = 0;
   SpaceIndex index_;
   mutable std::vector<Index> candidates_;  // of one query; kept for the next
 };

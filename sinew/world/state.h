@@ -20,6 +20,7 @@
 #include "sinew/world/names.h"
 #include "sinew/world/persistent_vector.h"
 #include "sinew/world/pose.h"
+#include "sinew/world/published_history.h"
 
 namespace sinew::world {
 
@@ -88,6 +89,8 @@ struct MeasurementRecord {
   std::shared_ptr<const BlockSet> blocks;  // none: null
   std::shared_ptr<const std::vector<std::shared_ptr<Cell>>> block_cells;
   std::shared_ptr<const History> history;  // null: only the ring is kept
+  // The same for real-time readers; as `history` where the cell is this world's own.
+  std::shared_ptr<PublishedHistory> published;
 };
 
 struct ObjectRecord {

@@ -23,23 +23,29 @@ graph::Id copied(const graph::Terms& from, graph::Id id, graph::Terms& to) {
 
 }  // namespace
 
+void copy_facts(const graph::View& from, graph::Store& to,
+                const std::function<bool(const graph::Quad&)>& keep) {
+  graph::Transaction transaction = to.begin();
+  const auto copy = [&](const graph::Quad& quad) {
+    if (!keep(quad)) return true;
+    const auto term = [&](graph::Id id) { return copied(from.terms(), id, to.terms()); };
+    transaction.add({term(quad.subject), term(quad.predicate), term(quad.object),
+                     quad.graph ? term(quad.graph) : graph::Id{}});
+    return true;
+  };
+  from.match_in({}, {}, {}, {}, copy);
+  from.match_named({}, {}, {}, copy);
+  transaction.commit();
+}
+
 Symbols::Symbols(std::string_view world_iri, const Names& names, const State& state,
                  const graph::Snapshot* inherited)
     : names_(names), graph_(store.terms().iri(world_iri)) {
   if (inherited) {
-    graph::Terms& terms = store.terms();
-    const graph::Terms& from = inherited->terms();
-    graph::Transaction transaction = store.begin();
-    const auto copy = [&](const graph::Quad& quad) {
-      const graph::Id in = quad.graph ? copied(from, quad.graph, terms) : quad.graph;
-      if (in == graph_) return true;
-      transaction.add({copied(from, quad.subject, terms), copied(from, quad.predicate, terms),
-                       copied(from, quad.object, terms), in});
-      return true;
-    };
-    inherited->match({}, {}, {}, graph::Dataset::kDefault, copy);
-    inherited->match_named({}, {}, {}, copy);
-    transaction.commit();
+    const graph::Id described = inherited->terms().find_iri(world_iri);
+    copy_facts(*inherited, store, [described](const graph::Quad& quad) {
+      return !quad.graph || quad.graph != described;
+    });
   }
   describe_all(state);
 }
@@ -156,7 +162,8 @@ void Symbols::describe_all(const State& state) {
   transaction.commit();
 }
 
-void Symbols::update(const State& before, const State& after, std::vector<Element> touched) {
+void Symbols::update(graph::Transaction& transaction, const State& before, const State& after,
+                     std::vector<Element> touched) {
   std::sort(touched.begin(), touched.end());
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   std::vector<graph::Quad> old;
@@ -167,14 +174,12 @@ void Symbols::update(const State& before, const State& after, std::vector<Elemen
   }
   std::sort(old.begin(), old.end());
   std::sort(now.begin(), now.end());
-  graph::Transaction transaction = store.begin();
   for (const graph::Quad& quad : old) {
     if (!std::binary_search(now.begin(), now.end(), quad)) transaction.remove(quad);
   }
   for (const graph::Quad& quad : now) {
     if (!std::binary_search(old.begin(), old.end(), quad)) transaction.add(quad);
   }
-  transaction.commit();
 }
 
 }  // namespace sinew::world

@@ -11,6 +11,7 @@
 //   R w:measured-by M
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -22,14 +23,19 @@ namespace sinew::world {
 
 inline constexpr std::string_view kWorldNamespace = "https://w3id.org/sinew/world#";
 
+// What `keep` wants of the facts, into another store.
+void copy_facts(const graph::View& from, graph::Store& to,
+                const std::function<bool(const graph::Quad&)>& keep);
+
 struct Symbols {
   // Describes the whole state in a new store. Of what is inherited, everything but the description.
   Symbols(std::string_view world_iri, const Names& names, const State& state,
           const graph::Snapshot* inherited);
 
-  // In one transaction: what was said of these elements goes, what is true of them now comes. An
-  // element may be named more than once.
-  void update(const State& before, const State& after, std::vector<Element> touched);
+  // What was said of these elements goes, what is true of them now comes, when the transaction is
+  // committed. An element may be named more than once.
+  void update(graph::Transaction& transaction, const State& before, const State& after,
+              std::vector<Element> touched);
 
   graph::Store store;
 

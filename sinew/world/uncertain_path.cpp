@@ -166,6 +166,13 @@ std::optional<PoseDistribution> Uncertainties::find(const World& world, Measurem
   return from_numbers(numbers.values);
 }
 
+MeasurementId Uncertainties::numbers_of(MeasurementId measurement) const {
+  const auto found = declared_.find(measurement);
+  const auto* numbers =
+      found == declared_.end() ? nullptr : std::get_if<MeasurementId>(&found->second);
+  return numbers ? *numbers : MeasurementId{};
+}
+
 std::vector<MeasurementId> Uncertainties::declared() const {
   std::vector<MeasurementId> all;
   for (const auto& [measurement, what] : declared_) all.push_back(measurement);
@@ -176,13 +183,22 @@ namespace {
 
 DistributedPose distribution_of(const World& world, const PoseQuery& query,
                                 const Uncertainties& known, Stamp time, Asking asking,
-                                const CombineOptions& options) {
+                                const CombineOptions& options, const UncertaintyGuard& guard) {
   const World still = world.clone();
   if (query.choice == Choice::kMostCertain || query.way == Way::kMostCertain) {
     state_deviations(still, known, time, asking);
   }
   const State state = still.state();
   PreparedPose prepared = still.prepare_pose(query);
+  if (guard) {
+    std::vector<MeasurementId> numbers;
+    const auto add = [&](MeasurementId measurement) {
+      if (const MeasurementId found = known.numbers_of(measurement)) numbers.push_back(found);
+    };
+    for (const SymbolicStep& walked : prepared.plan().symbolic) add(walked.measurement_id);
+    for (const Candidate& candidate : prepared.plan().candidates) add(candidate.measurement);
+    guard(prepared.plan(), numbers);
+  }
   DistributedPose answer;
   answer.status = prepared.status();
   if (answer.status != Status::kOk) return answer;
@@ -236,19 +252,20 @@ DistributedPose distribution_of(const World& world, const PoseQuery& query,
 
 DistributedPose pose_distribution(const World& world, const PoseQuery& query,
                                   const Uncertainties& known, Stamp now,
-                                  const CombineOptions& options) {
-  return distribution_of(world, query, known, now, Asking::kLatest, options);
+                                  const CombineOptions& options, const UncertaintyGuard& guard) {
+  return distribution_of(world, query, known, now, Asking::kLatest, options, guard);
 }
 
 DistributedPose pose_distribution_at(const World& world, const PoseQuery& query,
                                      const Uncertainties& known, Stamp time,
-                                     const CombineOptions& options) {
-  return distribution_of(world, query, known, time, Asking::kAt, options);
+                                     const CombineOptions& options, const UncertaintyGuard& guard) {
+  return distribution_of(world, query, known, time, Asking::kAt, options, guard);
 }
 
 UncertainPose uncertain_pose(const World& world, const PoseQuery& query, const Uncertainties& known,
-                             Stamp now, Order order) {
-  const DistributedPose found = pose_distribution(world, query, known, now, {.order = order});
+                             Stamp now, Order order, const UncertaintyGuard& guard) {
+  const DistributedPose found =
+      pose_distribution(world, query, known, now, {.order = order}, guard);
   UncertainPose answer{found.status, {}, found.undeclared};
   if (const auto* gaussian = std::get_if<GaussianPose>(&found.pose)) {
     answer.pose = *gaussian;

@@ -19,6 +19,7 @@
 // (total_deviation), and by the measurement's stated deviation where nothing is.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -58,6 +59,8 @@ class Uncertainties {
   std::optional<PoseDistribution> find(const World& world, MeasurementId measurement,
                                        RelationKind kind, Stamp time,
                                        Asking asking = Asking::kLatest) const;
+  // Where the displacement is measured as numbers; index kNone where it is not.
+  MeasurementId numbers_of(MeasurementId measurement) const;
   std::vector<MeasurementId> declared() const;
 
  private:
@@ -75,14 +78,21 @@ struct DistributedPose {
   explicit operator bool() const { return status == Status::kOk && undeclared.empty(); }
 };
 
+// Looks at what is read before it is (reader.h): the plan, and the measurements that are read as the
+// numbers of distributions. Throws Error where somebody may not.
+using UncertaintyGuard =
+    std::function<void(const Plan& plan, const std::vector<MeasurementId>& numbers)>;
+
 // Throws Error where kinds meet that need more than `options` says (pose_distribution.h).
 DistributedPose pose_distribution(const World& world, const PoseQuery& query,
                                   const Uncertainties& known, Stamp now,
-                                  const CombineOptions& options = {});
+                                  const CombineOptions& options = {},
+                                  const UncertaintyGuard& guard = {});
 // At a time: between entries, by models, and from histories, as PreparedPose::at.
 DistributedPose pose_distribution_at(const World& world, const PoseQuery& query,
                                      const Uncertainties& known, Stamp time,
-                                     const CombineOptions& options = {});
+                                     const CombineOptions& options = {},
+                                  const UncertaintyGuard& guard = {});
 
 struct UncertainPose {
   Status status = Status::kNoData;      // as of a pose query
@@ -95,6 +105,7 @@ struct UncertainPose {
 // Where all is exact or Gaussian. Throws Error where it is not: ask pose_distribution, and take its
 // gaussian_of if that will do.
 UncertainPose uncertain_pose(const World& world, const PoseQuery& query, const Uncertainties& known,
-                             Stamp now, Order order = Order::kFourth);
+                             Stamp now, Order order = Order::kFourth,
+                             const UncertaintyGuard& guard = {});
 
 }  // namespace sinew::world

@@ -97,7 +97,7 @@ Cell& own_cell(WorldImpl& world, MeasurementId measurement) {
   const MeasurementRecord& record = alive(world, world.state, measurement);
   if (record.cell->owner() == world.token) return *record.cell;
   const auto cell = std::make_shared<Cell>(*record.cell, world.as_of(record.cell->owner()),
-                                           world.token, world.epoch.load());
+                                           world.token, world.epoch.load(), world.family->changes);
   State next = world.published();
   MeasurementRecord& mine = next.measurements.edit(measurement.index, fresh_token());
   mine.cell = cell;
@@ -108,6 +108,9 @@ Cell& own_cell(WorldImpl& world, MeasurementId measurement) {
                                               world.epoch.load()));
     }
     mine.block_cells = cells;
+  }
+  if (mine.history) {
+    mine.published = std::make_shared<PublishedHistory>(world.family->readers, mine.history);
   }
   world.publish(std::move(next));
   return *cell;
@@ -235,20 +238,17 @@ std::unique_ptr<WriterState> claim_cells(WorldImpl& world,
                                          std::span<const MeasurementId> measurements,
                                          const WriteContext& who) {
   auto state = std::make_unique<WriterState>();
+  state->who = who.provenance;
   for (const MeasurementId measurement : measurements) {
     const MeasurementRecord record = alive(world, world.published(), measurement);
     const std::string& iri = world.family->names.text(record.name);
     if (world.guard) {
-      if (const auto reason = world.guard(measurement, *record.model, who.provenance)) {
+      if (const auto reason = world.guard(measurement, iri, *record.model, who.provenance)) {
         refuse(iri, *reason, "who is declared as its provenance writes it");
       }
     }
     if (std::holds_alternative<Static>(record.model->life_cycle)) {
       refuse(iri, "a writer for a static measurement", "another life-cycle, or no writer");
-    }
-    if (record.history) {
-      refuse(iri, "a real-time writer for a measurement that keeps all entries",
-             "World::write, or a ring alone");
     }
     Cell& cell = own_cell(world, measurement);
     if (!cell.claimed_by.empty()) {
@@ -262,6 +262,12 @@ std::unique_ptr<WriterState> claim_cells(WorldImpl& world,
     auto target = std::make_unique<WriterState::Target>();
     target->cell = own.cell;
     target->is_pose = record.quantity == Quantity::kPose;
+    target->measurement = measurement;
+    if (own.history) {
+      const std::size_t held = std::min(kMaximumHistory, own.history->size());
+      target->log = std::make_unique<WriteLog>(own.cell->values(), own.cell->capacity() - 1,
+                                               kMaximumHistory - held);
+    }
     target->blocks = own.blocks;
     if (own.block_cells) {
       for (const auto& block : *own.block_cells) {
@@ -368,16 +374,24 @@ World World::clone() const {
     while ((active & 1) != 0 && writer->active.load(std::memory_order_acquire) == active) {
       std::this_thread::yield();
     }
+    complete_histories(*impl, *writer, as_of);
   }
+  impl->origin = impl->state;
   return World(std::move(impl));
 }
 
 graph::Store& World::graph() {
+  {
+    const std::lock_guard instant(impl_->instant);  // whoever edits does not hold it up
+    if (impl_->symbols) return impl_->symbols->store;
+  }
   const std::lock_guard lock(impl_->editing);
   if (!impl_->symbols) {
-    impl_->symbols = std::make_unique<Symbols>(impl_->iri, impl_->family->names, impl_->state,
-                                               impl_->inherited ? &*impl_->inherited : nullptr);
+    auto symbols = std::make_unique<Symbols>(impl_->iri, impl_->family->names, impl_->state,
+                                             impl_->inherited ? &*impl_->inherited : nullptr);
     impl_->inherited.reset();
+    const std::lock_guard instant(impl_->instant);
+    impl_->symbols = std::move(symbols);
   }
   return impl_->symbols->store;
 }

@@ -18,6 +18,9 @@
 // a query chooses by its policies (prepared.h). A relation is symbolic, and every element is also
 // described in a graph (graph()); the numbers are in memory only.
 //
+// A World is its owner's, the process that runs it: nothing here asks who reads. Components get what
+// is judged: a Participant (participant.h), or a Reader (reader.h).
+//
 // Threads: structural edits, `write` and `clone` take turns; everything else may be called from any
 // thread at any time. Readers never hold up a writer. Real-time threads use handles (handles.h,
 // prepared.h), which neither allocate nor lock.
@@ -43,12 +46,14 @@
 
 namespace sinew::graph {
 class Store;
-}
+class Transaction;
+}  // namespace sinew::graph
 
 namespace sinew::world {
 
 class Edit;
 class Links;
+struct Situation;
 
 struct RelationSpec {
   std::string_view name;  // IRI
@@ -66,7 +71,7 @@ struct MeasurementSpec {
   MeasurementModel model = {};
   std::uint32_t capacity = kUsualCapacity;  // entries kept; rounded up to a power of two
   std::uint32_t values = 0;                 // of Quantity::kOther
-  bool keep_all = false;   // every entry, for users (history.h); no real-time handle
+  bool keep_all = false;   // every entry, for users (history.h)
   BlocksSpec blocks = {};  // the same value in other prototypes (block_set.h)
 };
 
@@ -78,7 +83,8 @@ struct WriteContext {
 // Told of every write outside real-time handles, and of every claim of one, before it happens;
 // refuses by returning a reason. For access rights and audits.
 using WriteGuard = std::function<std::optional<std::string>(
-    MeasurementId measurement, const MeasurementModel& model, std::string_view provenance)>;
+    MeasurementId measurement, std::string_view name, const MeasurementModel& model,
+    std::string_view provenance)>;
 
 struct WorldImpl;
 
@@ -141,6 +147,7 @@ class World {
     std::span<const double> values;
   };
   Status write_together(Stamp stamp, std::span<const Value> values, const WriteContext& who);
+  // Handles that it refuses write no more (Status::kForbidden), until another one allows them.
   void set_write_guard(WriteGuard guard);
   // Data blocks, by their place in the measurement's block set. Writing one writes them all;
   // reading several gives them as they were at one instant. Sizes in bytes must be the prototypes'.
@@ -170,6 +177,9 @@ class World {
   Sample at(MeasurementId measurement, Stamp time) const;
   // All entries of a measurement that keeps them, as they are now; Error for others.
   History history(MeasurementId measurement) const;
+  // Takes what real-time writers have written into the histories (collector.h does it every so
+  // often); returns how many entries.
+  std::size_t collect();
   // That user needs none of the first `count` entries of that history any more. Entries that all
   // declared users are done with are let go.
   void done(MeasurementId measurement, std::string_view user, const History& history,
@@ -199,6 +209,8 @@ class World {
   // The world's description (docs/world.md) in a named graph. A clone's is made when it is first
   // asked for. What else the store holds is the user's.
   graph::Store& graph();
+  // Facts and structure as they are at one instant (situation.h).
+  Situation situation();
 
   WorldImpl& impl() const { return *impl_; }  // for the module's own functions
 

@@ -21,8 +21,7 @@ std::optional<std::size_t> History::find(Stamp time) const {
   return low - 1;
 }
 
-void append(History& history, HistoryEntryPointer entry) {
-  const EditToken token = fresh_token();
+void append(History& history, HistoryEntryPointer entry, EditToken token) {
   const Stamp stamp = entry->stamp;
   history.entries.push_back(entry, token);
   // What lies among entries that were let go is not covered any more.
@@ -51,7 +50,19 @@ void let_go(History& history, std::size_t first) {
   }
 }
 
+void keep(WorldImpl& world, MeasurementId measurement, History history) {
+  State state = world.published();
+  MeasurementRecord& record = state.measurements.edit(measurement.index, fresh_token());
+  record.history = std::make_shared<const History>(std::move(history));
+  record.published->publish(record.history);
+  world.publish_quietly(std::move(state));
+}
+
 History World::history(MeasurementId measurement) const {
+  {
+    const std::lock_guard lock(impl_->editing);  // what is in a writer's log belongs to it
+    for (WriterState* const writer : impl_->writers) world::collect(*impl_, *writer);
+  }
   const State state = impl_->published();
   const MeasurementRecord& record = alive(*impl_, state, measurement);
   if (!record.history) {
@@ -70,7 +81,8 @@ void World::done(MeasurementId measurement, std::string_view user, const History
     refuse(iri, std::string(user) + " is no declared user of its history",
            "name it in used_by, and declare the measurement with keep_all");
   }
-  History next = *record.history;
+  own_cell(*impl_, measurement);  // a clone's history is the original's until then
+  History next = *impl_->state.measurements[measurement.index].history;
   std::size_t& reached = next.done[std::string(user)];
   reached = std::max(reached, std::min(history.first + count, next.entries.size()));
   std::size_t first = next.entries.size();
@@ -79,10 +91,7 @@ void World::done(MeasurementId measurement, std::string_view user, const History
     first = std::min(first, said == next.done.end() ? std::size_t{0} : said->second);
   }
   let_go(next, first);
-  State state = impl_->published();
-  state.measurements.edit(measurement.index, fresh_token()).history =
-      std::make_shared<const History>(std::move(next));
-  impl_->publish_quietly(std::move(state));
+  keep(*impl_, measurement, std::move(next));
 }
 
 }  // namespace sinew::world

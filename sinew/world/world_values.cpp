@@ -16,7 +16,7 @@ Status check(const WorldImpl& world, MeasurementId measurement, std::span<double
   const MeasurementRecord record = alive(world, world.state, measurement);
   const std::string& iri = world.family->names.text(record.name);
   if (world.guard) {
-    if (const auto reason = world.guard(measurement, *record.model, provenance)) {
+    if (const auto reason = world.guard(measurement, iri, *record.model, provenance)) {
       refuse(iri, *reason, "who is declared as its provenance writes it");
     }
   }
@@ -38,27 +38,6 @@ bool is_static(const WorldImpl& world, MeasurementId measurement) {
       world.state.measurements[measurement.index].model->life_cycle);
 }
 
-Candidate candidate_of(const WorldImpl& world, const MeasurementRecord& record,
-                       MeasurementId measurement) {
-  Candidate candidate;
-  candidate.cell = record.cell.get();
-  candidate.as_of = world.as_of(record.cell->owner());
-  candidate.model = record.model.get();
-  candidate.measurement = measurement;
-  candidate.quantity = record.quantity;
-  candidate.period = record.model->period;
-  const LifeCycle& life_cycle = record.model->life_cycle;
-  candidate.is_static = std::holds_alternative<Static>(life_cycle);
-  candidate.prediction = std::get_if<Prediction>(&life_cycle);
-  if (const auto* timed = std::get_if<TimeDependent>(&life_cycle)) {
-    candidate.validity = timed->validity;
-    candidate.expiry = timed->expiry;
-  } else if (candidate.prediction) {
-    candidate.validity = candidate.prediction->horizon;
-  }
-  return candidate;
-}
-
 // The numbers by read(candidate, view, values, gathered) or, where the ring does not go back so
 // far, by the history.
 template <typename Read>
@@ -67,22 +46,23 @@ World::Sample sample(const WorldImpl& world, MeasurementId measurement, Stamp ti
   for (int attempt = 0; attempt < kReadAttempts; ++attempt) {
     const State state = world.published();
     const MeasurementRecord& record = alive(world, state, measurement);
-    const Candidate from = candidate_of(world, record, measurement);
+    const Candidate from = candidate_of(record, measurement, world.as_of(record.cell->owner()));
     result.values.resize(record.cell->values());
     const Cell::View view = record.cell->view(from.as_of);
     if (!view.settled) continue;
     Gathered gathered;
     const CellReading reading = read(from, view, result.values.data(), gathered);
     result.status = reading.status;
-    result.bounds = bounds_of(from, view, record.history.get());
+    // Looked up after the ring: what has left that is in it (write_log.h).
+    const State past = record.history ? world.published() : state;
+    const History* const history = past.measurements[measurement.index].history.get();
+    result.bounds = bounds_of(from, view, history);
     result.stamp = view.count == 0 ? Stamp::min() : from.cell->stamp(view, reading.first);
-    if (result.status == Status::kTooOld && record.history) {
+    if (result.status == Status::kTooOld && history) {
       gathered = {};
-      result.status = read_past(from, *record.history, time, result.values.data(), gathered);
+      result.status = read_past(from, *history, time, result.values.data(), gathered);
       if (result.status == Status::kBusy) continue;
-      if (const auto found = record.history->find(time)) {
-        result.stamp = record.history->by_time[*found]->stamp;
-      }
+      if (const auto found = history->find(time)) result.stamp = history->by_time[*found]->stamp;
     }
     result.freshness = gathered.at(time);
     if (view.count == 0 || record.cell->intact(view, reading.first, from.as_of)) return result;
@@ -144,10 +124,7 @@ void remember(WorldImpl& world, MeasurementId measurement, Stamp stamp,
   History next = *before;
   append(next, std::make_shared<const HistoryEntry>(
                    HistoryEntry{stamp, values, std::string(provenance)}));
-  State state = world.published();
-  state.measurements.edit(measurement.index, fresh_token()).history =
-      std::make_shared<const History>(std::move(next));
-  world.publish_quietly(std::move(state));
+  keep(world, measurement, std::move(next));
 }
 
 bool is_full(const WorldImpl& world, MeasurementId measurement) {
@@ -216,6 +193,19 @@ Status write_checked(WorldImpl& world, MeasurementId measurement, Stamp stamp,
 void World::set_write_guard(WriteGuard guard) {
   const std::lock_guard lock(impl_->editing);
   impl_->guard = std::move(guard);
+  for (WriterState* const writer : impl_->writers) {
+    bool forbidden = false;
+    for (const auto& target : writer->targets) {
+      const MeasurementRecord& record = impl_->state.measurements[target->measurement.index];
+      if (!record.alive || !impl_->guard) continue;
+      forbidden = impl_
+                      ->guard(target->measurement, impl_->family->names.text(record.name),
+                              *record.model, writer->who)
+                      .has_value() ||
+                  forbidden;
+    }
+    writer->forbidden.store(forbidden, std::memory_order_release);
+  }
 }
 
 Status World::write(MeasurementId measurement, Stamp stamp, const Pose& pose,

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include "sinew/vocab/standard.h"
 #include "sinew/vocab/vocab.h"
+#include "sinew/world/block_set.h"
 #include "sinew/world/impl.h"
 #include "sinew/world/scene.h"
 #include "sinew/world/state.h"
@@ -51,13 +53,22 @@ struct SceneWriter {
     }
     return rest;
   }
-  Id numbers(std::initializer_list<double> values) {
+  Id numbers(std::span<const double> values) {
     std::vector<Id> literals;
     for (const double value : values) literals.push_back(terms().real(value));
     return list(literals);
   }
+  Id numbers(std::initializer_list<double> values) {
+    return numbers(std::span<const double>(values.begin(), values.size()));
+  }
   Id vector(const Vector3& v) { return numbers({v.x, v.y, v.z}); }
   Id quaternion(const Quaternion& q) { return numbers({q.x, q.y, q.z, q.w}); }
+  // Numbers in the order of a quantity.
+  void si_numbers(Id subject, std::string_view term, std::span<const double> values) {
+    add(subject, w(term), numbers(values));
+    add(subject, w("system"), terms().literal("SI"));
+  }
+  Id stamp(Stamp at) { return quantity(terms().integer(ns_of(at)), "NanoSEC"); }
 
   // A node with a number and its unit. Durations are whole nanoseconds, and written as such.
   Id quantity(Id number, std::string_view unit_name) {
@@ -92,7 +103,7 @@ struct SceneWriter {
     return value;
   }
 
-  void prediction(Id subject, const Prediction& prediction, Index with_respect_to,
+  void prediction(Id subject, const Prediction& prediction, Index with_respect_to, bool is_pose,
                   const std::string& name) {
     const Id model = terms().fresh_blank();
     if (const auto* constant = std::get_if<ConstantVelocity>(&prediction.model)) {
@@ -101,6 +112,19 @@ struct SceneWriter {
         add(model, w("angular"), vector(constant->twist->angular));
         add(model, w("linear"), vector(constant->twist->linear));
         units(model, {"RAD-PER-SEC", "M-PER-SEC"});
+      }
+      if (!constant->rates.empty()) si_numbers(model, "rates", constant->rates);
+    } else if (const auto* faster = std::get_if<ConstantAcceleration>(&prediction.model)) {
+      type(model, std::string(kWorldNamespace) + "ConstantAcceleration");
+      if (is_pose) {
+        add(model, w("angular"), vector(faster->twist.angular));
+        add(model, w("linear"), vector(faster->twist.linear));
+        add(model, w("angular-rate"), vector(faster->twist_rate.angular));
+        add(model, w("linear-rate"), vector(faster->twist_rate.linear));
+        units(model, {"RAD-PER-SEC", "M-PER-SEC", "RAD-PER-SEC2", "M-PER-SEC2"});
+      } else {
+        si_numbers(model, "rates", faster->rates);
+        si_numbers(model, "accelerations", faster->accelerations);
       }
     } else if (const auto* conveyor = std::get_if<Conveyor>(&prediction.model)) {
       type(model, vocab::w::Conveyor);
@@ -117,26 +141,82 @@ struct SceneWriter {
     duration(subject, "horizon", prediction.horizon);
   }
 
-  void measurement(Index index, const MeasurementRecord& record, const RelationRecord& relation) {
-    const std::string& name = world.name(MeasurementId{index});
-    if (record.quantity != Quantity::kPose) {
-      left_out(name, "measures a " + std::string(to_string(record.quantity)));
+  void life_cycle(Id node, const MeasurementRecord& record, const RelationRecord& relation,
+                  const std::string& name) {
+    const LifeCycle& life_cycle = record.model->life_cycle;
+    if (const auto* timed = std::get_if<TimeDependent>(&life_cycle)) {
+      add(node, w("life-cycle"), terms().literal("time-dependent"));
+      duration(node, "validity", timed->validity);
+      if (timed->expiry != Stamp::max()) add(node, w("expiry"), stamp(timed->expiry));
+    } else if (const auto* predicted = std::get_if<Prediction>(&life_cycle)) {
+      prediction(node, *predicted, relation.with_respect_to, record.quantity == Quantity::kPose,
+                 name);
+    } else {
+      add(node, w("life-cycle"), terms().literal("static"));
+    }
+  }
+
+  void blocks(Id node, const BlockSet& set, const std::string& name) {
+    if (set.spec.library_text.empty()) {
+      left_out(name, "has data blocks of a library whose text is not known");
       return;
     }
-    if (record.blocks) left_out(name, "has data blocks; their prototypes are no part of a scene");
+    std::vector<Id> all;
+    for (const BlockSpec& spec : set.spec.blocks) {
+      const Id block = iri(spec.name);
+      all.push_back(block);
+      type(block, std::string(kWorldNamespace) + "DataBlock");
+      add(block, w("prototype"), terms().literal(spec.prototype));
+      add(block, w("consistency"), iri(name + "/data"));
+      if (spec.realtime) add(block, w("realtime"), terms().boolean(true));
+      if (spec.allow_lossy) add(block, w("allows-lossy"), terms().boolean(true));
+    }
+    add(node, w("blocks"), list(all));
+    add(node, w("library"), terms().literal(set.spec.library_text));
+    if (!set.spec.canonical.empty()) {
+      add(node, w("canonical"), terms().literal(set.spec.canonical));
+    }
+  }
+
+  // The last entry; of a prediction the one that it starts from, not what it would be at another
+  // time.
+  void last_value(Id node, MeasurementId id, const MeasurementRecord& record,
+                  const RelationRecord& relation) {
+    World::Sample last = world.latest(id, Stamp());
+    if (last.status != Status::kNoData) last = world.latest(id, last.bounds.newest);
+    if (last.status != Status::kOk) return;
+    Id value;
+    if (record.quantity == Quantity::kPose) {
+      Pose pose;
+      pose.q = {last.values[0], last.values[1], last.values[2], last.values[3]};
+      pose.p = {last.values[4], last.values[5], last.values[6]};
+      value = pose_value(pose, relation.with_respect_to);
+    } else {
+      value = terms().fresh_blank();
+      type(value, std::string(kWorldNamespace) + "Numbers");
+      si_numbers(value, "numbers", last.values);
+      if (record.quantity == Quantity::kTwist || record.quantity == Quantity::kAcceleration) {
+        add(value, vocab::geom_coord::as_seen_by, iri(world.name(FrameId{relation.of})));
+      }
+    }
+    const bool is_static = std::holds_alternative<Static>(record.model->life_cycle);
+    if (!is_static && last.stamp != Stamp()) add(value, w("stamp"), stamp(last.stamp));
+    add(node, w("value"), value);
+  }
+
+  void measurement(Index index, const MeasurementRecord& record, const RelationRecord& relation) {
+    const std::string& name = world.name(MeasurementId{index});
     const Id node = iri(name);
     const MeasurementModel& model = *record.model;
     add(iri(world.name(RelationId{record.relation})), w("measured-by"), node);
     type(node, vocab::w::Measurement);
-    if (const auto* timed = std::get_if<TimeDependent>(&model.life_cycle)) {
-      add(node, w("life-cycle"), terms().literal("time-dependent"));
-      duration(node, "validity", timed->validity);
-      if (timed->expiry != Stamp::max()) left_out(name, "expires at a stamp");
-    } else if (const auto* predicted = std::get_if<Prediction>(&model.life_cycle)) {
-      prediction(node, *predicted, relation.with_respect_to, name);
-    } else {
-      add(node, w("life-cycle"), terms().literal("static"));
+    if (record.quantity != Quantity::kPose) {
+      add(node, w("quantity"), terms().literal(to_string(record.quantity)));
     }
+    if (record.quantity == Quantity::kOther) {
+      add(node, w("size"), terms().integer(record.cell->values()));
+    }
+    life_cycle(node, record, relation, name);
     add(node, w("provenance"),
         iri(model.provenance.empty() ? kModelProvenance : std::string_view(model.provenance)));
     if (!model.coord_frame.empty()) add(node, w("coord-frame"), iri(model.coord_frame));
@@ -157,20 +237,12 @@ struct SceneWriter {
       add(node, w("entries"), terms().integer(record.cell->capacity() - 1));
     }
     if (record.history) add(node, w("keeps-all"), terms().boolean(true));
-
-    // Of a prediction the entry that it starts from, not what it would be at another time.
-    World::Sample last = world.latest(MeasurementId{index}, Stamp());
-    if (last.status != Status::kNoData)
-      last = world.latest(MeasurementId{index}, last.bounds.newest);
-    if (last.status != Status::kOk) return;
-    Pose pose;
-    pose.q = {last.values[0], last.values[1], last.values[2], last.values[3]};
-    pose.p = {last.values[4], last.values[5], last.values[6]};
-    const Id value = pose_value(pose, relation.with_respect_to);
-    if (!is_static && last.stamp != Stamp()) {
-      add(value, w("stamp"), quantity(terms().integer(ns_of(last.stamp)), "NanoSEC"));
+    if (record.blocks) blocks(node, *record.blocks, name);
+    if (options.leave_out_values && options.leave_out_values(MeasurementId{index})) {
+      left_out(name, "has a value that is not for whoever writes the scene");
+      return;
     }
-    add(node, w("value"), value);
+    last_value(node, MeasurementId{index}, record, relation);
   }
 
   // A frame of which other models say all that there is: it has relations, and each is left out.
@@ -210,17 +282,19 @@ struct SceneWriter {
     for (Index i = 0; i < state.relations.size(); ++i) {
       const RelationRecord& relation = state.relations[i];
       if (!relation.alive || (options.leave_out && options.leave_out(RelationId{i}))) continue;
-      const std::string& name = world.name(RelationId{i});
-      if (relation.kind != RelationKind::kFree) {
-        left_out(name, relation.kind == RelationKind::kProperty
-                           ? "is a property"
-                           : "is a joint, which its robot's model says");
+      written[i] = true;
+      const Id node = iri(world.name(RelationId{i}));
+      add(node, vocab::geom_rel::of, iri(world.name(FrameId{relation.of})));
+      if (relation.kind == RelationKind::kProperty) {
+        type(node, std::string(kWorldNamespace) + "Property");
         continue;
       }
-      written[i] = true;
-      const Id node = iri(name);
       type(node, vocab::geom_rel::Pose);
-      add(node, vocab::geom_rel::of, iri(world.name(FrameId{relation.of})));
+      if (relation.kind != RelationKind::kFree) {
+        type(node, std::string(kWorldNamespace) +
+                       (relation.kind == RelationKind::kRevolute ? "Revolute" : "Prismatic"));
+        add(node, w("placement"), pose_value(relation.placement, relation.with_respect_to));
+      }
       add(node, vocab::geom_rel::with_respect_to,
           iri(world.name(FrameId{relation.with_respect_to})));
       if (relation.suspended) add(node, w("suspended"), terms().boolean(true));
@@ -274,7 +348,13 @@ struct SceneWriter {
         writer.add(node, vocab::w::highest, writer.vector(mesh.maximum));
       }
     };
-    std::visit(Write{*this, node, real}, declared.shape.geometry);
+    if (!declared.mesh_file.empty()) {
+      type(node, vocab::shape::Mesh);
+      add(node, vocab::shape::file, terms().literal(declared.mesh_file));
+      add(node, vocab::shape::scale, vector(declared.mesh_scale));
+    } else {
+      std::visit(Write{*this, node, real}, declared.shape.geometry);
+    }
     const auto& [q, p] = declared.shape.placement;
     if (p.x != 0 || p.y != 0 || p.z != 0) add(node, w("position"), vector(p));
     if (q.x != 0 || q.y != 0 || q.z != 0) {

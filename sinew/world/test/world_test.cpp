@@ -357,7 +357,7 @@ TEST(Structure, FaultsAreNamed) {
 
 TEST(Guard, RefusesWritesByProvenance) {
   Scene s;
-  s.world.set_write_guard([](MeasurementId, const MeasurementModel& model,
+  s.world.set_write_guard([](MeasurementId, std::string_view, const MeasurementModel& model,
                              std::string_view who) -> std::optional<std::string> {
     if (model.provenance == who) return std::nullopt;
     return "written by " + std::string(who) + ", declared to come from " + model.provenance;
