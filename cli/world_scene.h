@@ -37,9 +37,9 @@ struct LoadedScene {
   world::DeclaredRights rights;
   std::shared_ptr<world::Audit> audit;
   world::Stamp now;
-  std::set<std::string> robot_frames;  // IRIs
+  std::set<std::string> robot_frames;             // IRIs
   std::vector<world::DeclaredBody> robot_bodies;  // of its collision geometry
-  std::unique_ptr<world::Participant> asker;  // on whose behalf is asked; null: the owner's
+  std::unique_ptr<world::Participant> asker;      // on whose behalf is asked; null: the owner's
 
   // By IRI, by label, or by what follows the last '#' or '/' of the IRI. Throws Error where there
   // is none, or several.

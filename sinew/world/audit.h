@@ -23,12 +23,12 @@ namespace sinew::world {
 
 // What a component may do, as far as rights go.
 enum class Act : std::uint8_t {
-  kMeasure,  // write a value of a measurement, or claim it for real time
-  kRelate,   // change a symbolic relation: add or remove it, attach or detach a frame
-  kModel,    // add or remove an object, or change which model it is an instance of
-  kRead,     // read a measurement, or prepare a query that does
-  kPerform,  // perform an action (action_effects.h)
-  kPredict,  // ask what an action would lead to; changes nothing
+  kMeasure,    // write a value of a measurement, or claim it for real time
+  kRelate,     // change a symbolic relation: add or remove it, attach or detach a frame
+  kModel,      // add or remove an object, or change which model it is an instance of
+  kRead,       // read a measurement, or prepare a query that does
+  kPerform,    // perform an action (action_effects.h)
+  kPredict,    // ask what an action would lead to; changes nothing
   kReadGraph,  // read a named graph, or the unnamed one
 };
 std::string_view to_string(Act act);

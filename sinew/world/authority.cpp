@@ -42,12 +42,21 @@ std::optional<std::string> Authority::reason_against_graph(const std::string& wh
   return reason;
 }
 
+namespace {
+
+[[noreturn]] void refuse_reading(const std::string& who, const WantedReading& wanted,
+                                 const std::string& reason) {
+  refuse(wanted.name, reason,
+         "name it in used_by, or a rule that allows " + who +
+             " to read-measurement; a query may avoid the relation, or choose another "
+             "provenance");
+}
+
+}  // namespace
+
 void Authority::ask_to_read(const std::string& who, const WantedReading& wanted) {
   if (const auto reason = reason_against_reading(who, wanted)) {
-    refuse(wanted.name, *reason,
-           "name it in used_by, or a rule that allows " + who +
-               " to read-measurement; a query may avoid the relation, or choose another "
-               "provenance");
+    refuse_reading(who, wanted, *reason);
   }
 }
 
@@ -64,9 +73,12 @@ void Authority::ask(const std::string& who, Act act, std::string_view what) {
 
 std::shared_ptr<const Permit> Authority::permit(const std::string& who,
                                                 std::vector<WantedReading> wanted) {
-  for (const WantedReading& each : wanted) ask_to_read(who, each);
-  auto permit = std::make_shared<Permit>();
+  // Judged and noted in one, so that no change of the rights comes between.
   const std::lock_guard lock(mutex_);
+  for (const WantedReading& each : wanted) {
+    if (const auto reason = judge(who, each)) refuse_reading(who, each, *reason);
+  }
+  auto permit = std::make_shared<Permit>();
   std::erase_if(permitted_, [](const Permitted& each) { return each.permit.expired(); });
   permitted_.push_back({permit, who, std::move(wanted)});
   return permit;

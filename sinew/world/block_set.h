@@ -59,7 +59,7 @@ struct DataBlock {
 
 struct BlockSet {
   std::shared_ptr<const data::Library> library;
-  BlocksSpec spec;  // that it was made of
+  BlocksSpec spec;                // that it was made of
   std::vector<DataBlock> blocks;  // real-time blocks first, otherwise as declared
   std::optional<std::size_t> find(std::string_view name) const;
 };

@@ -1,5 +1,5 @@
-// What has been written since somebody looked last, for whoever watches thousands of measurements: a
-// number for each cell, all of them side by side, that its writer counts up with one plain store.
+// What has been written since somebody looked last, for whoever watches thousands of measurements:
+// a number for each cell, all of them side by side, that its writer counts up with one plain store.
 // Looking at ten thousand costs a few microseconds, and nothing of it costs the writers a wait.
 //
 // Numbers are never used again, as measurements' are not.

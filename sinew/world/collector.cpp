@@ -41,7 +41,8 @@ void complete_histories(WorldImpl& clone, const WriterState& writer, Epoch as_of
     const MeasurementRecord& record = clone.state.measurements[target->measurement.index];
     if (!record.alive || record.cell != target->cell) continue;
     const Cell& cell = *record.cell;
-    const Cell::View view = cell.view(as_of);
+    Cell::View view = cell.view(as_of);
+    while (!view.settled) view = cell.view(as_of);
     const EditToken token = fresh_token();
     History next = *record.history;
     std::vector<double> values(cell.values());

@@ -8,8 +8,8 @@
 
 namespace sinew::world {
 
-// Every triple of a w:Component, w:Allowance, w:Prohibition, w:SingleWriter and w:Action, and of the
-// blank nodes that these lead to; into the unnamed graph of `to`. Returns how many.
+// Every triple of a w:Component, w:Allowance, w:Prohibition, w:SingleWriter and w:Action, and of
+// the blank nodes that these lead to; into the unnamed graph of `to`. Returns how many.
 std::size_t copy_declarations(const graph::Store& from, graph::Store& to);
 
 }  // namespace sinew::world

@@ -18,8 +18,8 @@
 //   K w:measures "height-gap" ; w:minimum n ; w:maximum n ; w:maximum-of "reach" ; qudt:unit U
 //   O w:declares N ;  N w:property "reach" ; w:number n ; qudt:unit U
 //
-// A mesh counts as the box along its own axes that holds its vertices (mesh_file.h); the unit is that
-// of the file's numbers after scaling, and the scale is 1 where there is none.
+// A mesh counts as the box along its own axes that holds its vertices (mesh_file.h); the unit is
+// that of the file's numbers after scaling, and the scale is 1 where there is none.
 //
 // The shape's own axes are those of the frame that sees it, moved by its position and quaternion
 // where they are stated. That frame is the body's own, or one whose pose in it is constant.

@@ -44,8 +44,8 @@ class Edit {
   const State& state() const { return next_; }
 
   void commit();
-  // Together with what a transaction on the world's graph has changed: whoever asks for both at once
-  // (World::situation), and whoever asks the graph alone, sees all of it or nothing.
+  // Together with what a transaction on the world's graph has changed: whoever asks for both at
+  // once (World::situation), and whoever asks the graph alone, sees all of it or nothing.
   void commit_with(graph::Transaction& facts);
 
  private:

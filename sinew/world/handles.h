@@ -35,7 +35,7 @@ struct WriterState {
     std::atomic<Ring*> spares[2] = {nullptr, nullptr};
     bool is_pose = false;
     MeasurementId measurement;
-    std::unique_ptr<WriteLog> log;  // where every entry is kept
+    std::unique_ptr<WriteLog> log;                        // where every entry is kept
     std::shared_ptr<const BlockSet> blocks;               // of a measurement
     std::vector<std::unique_ptr<Target>> blocks_targets;  // a cell for each of them
   };

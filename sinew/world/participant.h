@@ -1,5 +1,6 @@
-// What a component gets of a world: everything is judged by the rights that are in force, for whoever
-// it is, and recorded. The World itself, with all that asks nobody, is given to nobody but its owner.
+// What a component gets of a world: everything is judged by the rights that are in force, for
+// whoever it is, and recorded. The World itself, with all that asks nobody, is given to nobody but
+// its owner.
 //
 //   Access access(world, rights, audit);                       // the owner's
 //   Participant task = access.participant("http://cell/task-controller");
@@ -44,7 +45,8 @@ class Participant {
                         std::map<std::string, std::string> arguments, Stamp now,
                         FactHistory* history = nullptr);
   struct Prediction;
-  // What it would lead to, for the same participant to look at. It needs no right to ask.
+  // What it would lead to, for the same participant to look at. It needs no right to ask. Why an
+  // action is refused is said in its author's words, of whatever its preconditions look at.
   Prediction predict(const Actions& actions, const std::string& action,
                      std::map<std::string, std::string> arguments, Stamp now) const;
 

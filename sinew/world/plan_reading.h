@@ -107,7 +107,11 @@ Status read_one(const Plan& plan, std::uint32_t candidate, Stamp time, PlanReadi
   if (kWhen == When::kAt && read.status == Status::kTooOld) [[unlikely]] {
     const HeldHistory history(from, reading.reader);
     if (history.is_busy()) return Status::kBusy;
-    if (history.get()) return read_past(from, *history.get(), time, values, gathered);
+    if (history.get()) {
+      // Nothing of the ring was used: it may go on as it likes, but for corrections.
+      reading.used[reading.uses - 1].first = view.count - 1;
+      return read_past(from, *history.get(), time, values, gathered);
+    }
   }
   return read.status;
 }

@@ -16,8 +16,8 @@
 //   graphs, scenes     when they are taken; what he may not read is left out, and named
 //
 // What is refused is an Error with the measurement's IRI, who asked, and who would get it. Names,
-// frames, relations and what measures them by whom are symbolic: they are read by everybody, but for
-// measurements that one may not read. The owner of the World itself asks nobody.
+// frames, relations and what measures them by whom are symbolic: they are read by everybody, but
+// for measurements that one may not read. The owner of the World itself asks nobody.
 //
 // A reader must not outlive the world.
 #pragma once

@@ -13,9 +13,9 @@
 
 namespace sinew::world {
 
-// A body for each frame that has such geometry, in the order in which the models say it. What cannot
-// be taken over, a mesh without a file that is found among it, is a warning with its place, and left
-// out.
+// A body for each frame that has such geometry, in the order in which the models say it. What
+// cannot be taken over, a mesh without a file that is found among it, is a warning with its place,
+// and left out.
 std::vector<DeclaredBody> read_robot_shapes(const World& world, graph::Store& store,
                                             const graph::Places& places, Report& report,
                                             const MeshFiles& meshes = {});

@@ -1,9 +1,10 @@
-// What holds at one instant: the facts of a world's graph and its structure, which edits and actions
-// change together. Whoever asks first the one and then the other may come between two changes; a
-// situation holds both.
+// What holds at one instant: the facts of a world's graph and its structure, which edits and
+// actions change together. Whoever asks first the one and then the other may come between two
+// changes; a situation holds both.
 //
 //   const Situation situation = world.situation();
-//   if (situation.facts.contains(gripper, holds, bolt)) situation.pose(bolt_frame, gripper_frame, now)
+//   if (situation.facts.contains(gripper, holds, bolt)) situation.pose(bolt_frame, gripper_frame,
+//   now)
 //
 // Taking one costs O(1), and it stays as it is. The numbers of measurements are those of when it is
 // asked; of an attachment they never change.

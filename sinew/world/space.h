@@ -8,9 +8,9 @@
 //   space.within("http://cell/storage-magazine", Match::kInside).bodies
 //
 // `update` reads the poses of frames of which something was written since (change_board.h), or that
-// time itself changes (predictions, expiry), and changes the index where something has left its box;
-// queries answer as of the last update. Poses are read one frame after the other, all for the same
-// `now`. What has no pose is in no answer and is named in each: `unplaced`.
+// time itself changes (predictions, expiry), and changes the index where something has left its
+// box; queries answer as of the last update. Poses are read one frame after the other, all for the
+// same `now`. What has no pose is in no answer and is named in each: `unplaced`.
 //
 // One Space is used by one thread at a time; the world may be written meanwhile by any other. The
 // world stays where it is for as long as the Space lives. Structural edits are followed: objects

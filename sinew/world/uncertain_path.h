@@ -78,8 +78,8 @@ struct DistributedPose {
   explicit operator bool() const { return status == Status::kOk && undeclared.empty(); }
 };
 
-// Looks at what is read before it is (reader.h): the plan, and the measurements that are read as the
-// numbers of distributions. Throws Error where somebody may not.
+// Looks at what is read before it is (reader.h): the plan, and the measurements that are read as
+// the numbers of distributions. Throws Error where somebody may not.
 using UncertaintyGuard =
     std::function<void(const Plan& plan, const std::vector<MeasurementId>& numbers)>;
 
@@ -92,7 +92,7 @@ DistributedPose pose_distribution(const World& world, const PoseQuery& query,
 DistributedPose pose_distribution_at(const World& world, const PoseQuery& query,
                                      const Uncertainties& known, Stamp time,
                                      const CombineOptions& options = {},
-                                  const UncertaintyGuard& guard = {});
+                                     const UncertaintyGuard& guard = {});
 
 struct UncertainPose {
   Status status = Status::kNoData;      // as of a pose query

@@ -18,8 +18,8 @@
 // a query chooses by its policies (prepared.h). A relation is symbolic, and every element is also
 // described in a graph (graph()); the numbers are in memory only.
 //
-// A World is its owner's, the process that runs it: nothing here asks who reads. Components get what
-// is judged: a Participant (participant.h), or a Reader (reader.h).
+// A World is its owner's, the process that runs it: nothing here asks who reads. Components get
+// what is judged: a Participant (participant.h), or a Reader (reader.h).
 //
 // Threads: structural edits, `write` and `clone` take turns; everything else may be called from any
 // thread at any time. Readers never hold up a writer. Real-time threads use handles (handles.h,
@@ -71,8 +71,8 @@ struct MeasurementSpec {
   MeasurementModel model = {};
   std::uint32_t capacity = kUsualCapacity;  // entries kept; rounded up to a power of two
   std::uint32_t values = 0;                 // of Quantity::kOther
-  bool keep_all = false;   // every entry, for users (history.h)
-  BlocksSpec blocks = {};  // the same value in other prototypes (block_set.h)
+  bool keep_all = false;                    // every entry, for users (history.h)
+  BlocksSpec blocks = {};                   // the same value in other prototypes (block_set.h)
 };
 
 // Who writes. Every write carries it; a hook (set_write_guard) may refuse by it.

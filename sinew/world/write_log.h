@@ -1,8 +1,8 @@
 // What a real-time writer has written of a measurement that keeps every entry, until the collector
 // (World::collect, Collector) has put it into the history: a queue between two threads, with places
 // that are made when the measurement is claimed and handed back by the collector. The writer waits
-// for nobody: when no place is left, the write is refused (Status::kNoRoom) and counted, and nothing
-// is changed.
+// for nobody: when no place is left, the write is refused (Status::kNoRoom) and counted, and
+// nothing is changed.
 //
 // Between ring and history there is no gap, which is what lets real-time readers answer for any
 // time in between: an entry leaves the ring only when the history has it, and when all later
