@@ -124,7 +124,7 @@ TEST(MeshFile, EveryFormatReachesAsFar) {
 TEST(MeshFile, NamesAreResolvedByWhatIsDeclaredAlone) {
   const MeshFiles files{.packages = {{"cell", "/roots/cell"}}, .directory = "/here"};
   EXPECT_EQ(resolve_mesh("package://cell/meshes/a.stl", files), "/roots/cell/meshes/a.stl");
-  EXPECT_EQ(resolve_mesh("file:///tmp/a.stl", files), "/tmp/a.stl");
+  EXPECT_EQ(resolve_mesh("file:///meshes/a.stl", files), "/meshes/a.stl");
   EXPECT_EQ(resolve_mesh("a.stl", files), "/here/a.stl");
   EXPECT_NE(refusal([&] {
               resolve_mesh("package://other/a.stl", files);
