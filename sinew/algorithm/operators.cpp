@@ -139,6 +139,21 @@ constexpr Row kRows[] = {
      "acceleration-twist.of = rigid-body-inertia.of; wrench.of = rigid-body-inertia.of; "
      "acceleration-twist.wrt = velocity-twist.wrt",
      "n = I al + w x (I w) + h x a, f = m a + al x h + w x (w x h)"},
+    // The same, seen from the frame before the body's joint, from how the predecessor moves there.
+    {"newton-euler-wrench-across-revolute", SINEW_OWN "newton-euler-wrench-across-revolute",
+     "pose:pose rigid-body-inertia:rigid-body-inertia velocity-twist:velocity-twist "
+     "relative-velocity:velocity-twist acceleration-twist:acceleration-twist "
+     "relative-acceleration:acceleration-twist -> wrench:wrench",
+     "rigid-body-inertia.at = pose.of; velocity-twist.at = pose.wrt; "
+     "acceleration-twist.at = pose.wrt; relative-velocity.at = pose.of; "
+     "relative-acceleration.at = pose.of; acceleration-twist.of = velocity-twist.of; "
+     "acceleration-twist.wrt = velocity-twist.wrt; relative-velocity.wrt = velocity-twist.of; "
+     "relative-acceleration.wrt = velocity-twist.of; "
+     "relative-velocity.of = rigid-body-inertia.of; "
+     "relative-acceleration.of = rigid-body-inertia.of; wrench.at = pose.wrt; "
+     "wrench.of = rigid-body-inertia.of",
+     "with w = w_A + q' z, al = al_A + q'' z + w_A x q' z, h = R h_B, I = R I_B R': "
+     "n = I al + w x (I w) + h x a_A, f = m a_A + al x h + w x (w x h)"},
     // The same for a body at rest.
     {"acceleration-twist-to-wrench", SINEW_DYNAMICS "AccelerationTwistToWrenchWithRigidBodyInertia",
      "rigid-body-inertia:rigid-body-inertia acceleration-twist:acceleration-twist -> wrench:wrench",
@@ -205,18 +220,19 @@ constexpr Row kRows[] = {
      "unit-wrench.at = inertia.at; projected.at = inertia.at; unit-wrench.of = inertia.of; "
      "projected.of = inertia.of; unit-force.of = inertia.of; unit-force.seen = inertia.seen",
      "I - U U' / D"},
+    // The joint's frames before and behind it have the axis in common, about which its force is.
     {"project-wrench", SINEW_OWN "project-wrench",
      "wrench:wrench unit-wrench:wrench unit-force:joint-force force:joint-force -> "
      "projected:wrench",
      "unit-wrench.at = wrench.at; projected.at = wrench.at; unit-wrench.of = wrench.of; "
      "projected.of = wrench.of; unit-force.of = wrench.of; force.of = wrench.of; "
-     "unit-force.seen = wrench.seen; force.seen = wrench.seen",
+     "unit-force.seen = force.seen",
      "W + U u / D"},
     {"joint-acceleration-from-force", SINEW_OWN "joint-acceleration-from-force",
      "force:joint-force unit-wrench:wrench unit-force:joint-force "
      "acceleration-twist:acceleration-twist -> acceleration:joint-acceleration",
-     "unit-wrench.of = force.of; unit-wrench.at = force.seen; unit-force.of = force.of; "
-     "unit-force.seen = force.seen; acceleration-twist.at = force.seen; "
+     "unit-wrench.of = force.of; unit-force.of = force.of; "
+     "unit-force.seen = force.seen; acceleration-twist.at = unit-wrench.at; "
      "acceleration-twist.of = force.wrt; acceleration.of = force.of; acceleration.wrt = force.wrt; "
      "acceleration.seen = force.seen",
      "qdd = (u - U . A) / D"},
@@ -479,8 +495,8 @@ struct Catalogue {
     const std::span<const Row> relative = relative_operator_rows();
     const std::span<const Row> joints = joint_operator_rows();
     const std::span<const Row> hybrid = hybrid_operator_rows();
-    all.reserve(std::size(kRows) + control.size() + relative.size() + joints.size() + hybrid.size() +
-                std::size(kExternalRows));
+    all.reserve(std::size(kRows) + control.size() + relative.size() + joints.size() +
+                hybrid.size() + std::size(kExternalRows));
     for (const Row& row : kRows) add(row, false);
     for (const Row& row : control) add(row, false);
     for (const Row& row : relative) add(row, false);

@@ -61,11 +61,15 @@ ArticulatedInertia<S> project(const ArticulatedInertia<S>& I, const Wrench<S>& U
 }
 
 // The wrench that the predecessor feels when the joint gets the force u on top of the wrench W that
-// the body needs at rest: W + U u / D.
+// the body needs at rest: W + U u / D. Along the axis that is u itself, unless D has a rotor's
+// share.
 template <typename S>
 Wrench<S> project(const Wrench<S>& W, const Wrench<S>& U, const S& D, const S& u) {
   const S qdd = u / D;
-  return {W.moment + qdd * U.moment, W.force + qdd * U.force};
+  const auto share = [&](const S& unit) { return is_same(unit, D) ? u : qdd * unit; };
+  return {{W.moment.x + qdd * U.moment.x, W.moment.y + qdd * U.moment.y,
+           W.moment.z + share(U.moment.z)},
+          {W.force.x + qdd * U.force.x, W.force.y + qdd * U.force.y, W.force.z + share(U.force.z)}};
 }
 
 // The joint's acceleration under force u while the predecessor accelerates the body with A:

@@ -16,30 +16,77 @@ struct RigidBodyInertia {
       rotational;  // I about the frame's origin [kg m^2]; products with their sign in the matrix
 };
 
+// Second moments S = (tr I / 2) 1 - I, the sum of m r r^T over the body's points. They turn as I
+// does.
+template <typename S>
+Symmetric3<S> second_moments(const Symmetric3<S>& I) {
+  const S half(0.5);
+  return {half * (I.yy + I.zz - I.xx), -I.xy, -I.xz,
+          half * (I.xx + I.zz - I.yy), -I.yz, half * (I.xx + I.yy - I.zz)};
+}
+
+// The sum of m r x (U r) over the body's points, vee(U S - (U S)^T), where U is the gradient of the
+// acceleration field of a body that turns with omega: U.zz - U.yy = omega.z^2 - omega.y^2 and so
+// on. `squares` are those of omega's components.
+template <typename S>
+Vector3<S> moment_of_turning(const Symmetric3<S>& M, const Matrix3<S>& U,
+                             const Vector3<S>& squares) {
+  return {M.yy * U.zy - M.zz * U.yz + M.xy * U.zx - M.xz * U.yx + M.yz * (squares.z - squares.y),
+          M.zz * U.xz - M.xx * U.zx + M.yz * U.xy - M.xy * U.zy + M.xz * (squares.x - squares.z),
+          M.xx * U.yx - M.yy * U.xy + M.xz * U.yz - M.yz * U.xz + M.xy * (squares.y - squares.x)};
+}
+
 // The wrench that gives a body with velocity V the acceleration A (Newton and Euler, body frame):
 //   f = m a + U h,   n = I alpha + omega x I omega + h x a.
-// The first two terms of n are computed from the second moments S = (tr I / 2) 1 - I as the sum of
-// r x (U r) over the body's points, n = vee(U S - (U S)^T): with U at hand it takes 15 products
-// instead of 24 (Balafoutis, Patel and Misra 1988), and a body whose S is sparse takes fewer.
+// The first two terms of n are computed from the second moments: with U at hand it takes 15
+// products instead of 24 (Balafoutis, Patel and Misra 1988), and a body whose S is sparse takes
+// fewer.
 template <typename S>
 Wrench<S> newton_euler(const RigidBodyInertia<S>& I, const VelocityTwist<S>& V,
                        const AccelerationTwist<S>& A) {
   const Matrix3<S> U = acceleration_gradient(V.angular, A.angular);
   const Vector3<S>& w = V.angular;
-  const Symmetric3<S>& J = I.rotational;
-  const S half(0.5);
-  const S Sxx = half * (J.yy + J.zz - J.xx);
-  const S Syy = half * (J.xx + J.zz - J.yy);
-  const S Szz = half * (J.xx + J.yy - J.zz);
-  // U.zz - U.yy = w.z^2 - w.y^2 and so on; S.xy = -J.xy and so on.
-  const S wxx = w.x * w.x;
-  const S wyy = w.y * w.y;
-  const S wzz = w.z * w.z;
-  const Vector3<S> rotation = {
-      Syy * U.zy - Szz * U.yz - J.xy * U.zx + J.xz * U.yx - J.yz * (wzz - wyy),
-      Szz * U.xz - Sxx * U.zx - J.yz * U.xy + J.xy * U.zy - J.xz * (wxx - wzz),
-      Sxx * U.yx - Syy * U.xy - J.xz * U.yz + J.yz * U.xz - J.xy * (wyy - wxx)};
-  return {rotation + cross(I.first_moment, A.linear), I.mass * A.linear + U * I.first_moment};
+  const Vector3<S> n =
+      moment_of_turning(second_moments(I.rotational), U, {w.x * w.x, w.y * w.y, w.z * w.z});
+  return {n + cross(I.first_moment, A.linear), I.mass * A.linear + U * I.first_moment};
+}
+
+// The same wrench of a body behind a revolute joint, seen from the joint's frame A in the
+// predecessor instead of the body's own frame B, from how the predecessor moves there and the joint
+// turns. Nothing but the inertia changes its directions, and of the predecessor's U at A only what
+// the joint's turning adds has to be computed: with q' and q'' about z, the column of z stays, the
+// row gets 2 q' omega.x and 2 q' omega.y. For a body on which nothing hangs that takes fewer
+// operations than turning its velocity and acceleration there and the wrench back.
+template <typename S>
+Wrench<S> newton_euler_across_revolute(const Pose<S>& X_AB, const RigidBodyInertia<S>& I_B,
+                                       const VelocityTwist<S>& V_A,
+                                       const VelocityTwist<S>& V_relative,
+                                       const AccelerationTwist<S>& A_A,
+                                       const AccelerationTwist<S>& A_relative) {
+  const Vector3<S>& w = V_A.angular;
+  const Vector3<S>& alpha = A_A.angular;
+  const S wz = w.z + V_relative.angular.z;
+  const S alpha_z = alpha.z + A_relative.angular.z;
+  const S twice = S(2) * V_relative.angular.z;
+  const S xx = w.x * w.x;
+  const S yy = w.y * w.y;
+  const S zz = wz * wz;
+  const S xy = w.x * w.y;
+  const S xz = w.x * w.z;
+  const S yz = w.y * w.z;
+  const Matrix3<S> U = {-(yy + zz),
+                        xy - alpha_z,
+                        xz + alpha.y,  //
+                        xy + alpha_z,
+                        -(xx + zz),
+                        yz - alpha.x,  //
+                        (xz - alpha.y) + twice * w.x,
+                        (yz + alpha.x) + twice * w.y,
+                        -(xx + yy)};
+  const Vector3<S> h = X_AB.R * I_B.first_moment;
+  const Vector3<S> n =
+      moment_of_turning(rotate(X_AB.R, second_moments(I_B.rotational)), U, {xx, yy, zz});
+  return {n + cross(h, A_A.linear), I_B.mass * A_A.linear + U * h};
 }
 
 // The same for a body at rest: f = m a + alpha x h, n = I alpha + h x a.

@@ -9,6 +9,8 @@ namespace sinew::math {
 // Whether a scalar is known to be this number. A tracing scalar has an overload of its own, which
 // knows the constants only.
 inline bool is_exactly(double scalar, double value) { return scalar == value; }
+// Whether two scalars are known to be the same.
+inline bool is_same(double a, double b) { return a == b; }
 
 // A rotation that leaves one axis in its place, perhaps reversed: about it turn the other two, in
 // cyclic order, by the angle of cosine c and sine s, after the second has been reversed if `sign`

@@ -84,6 +84,16 @@ void sinew_newton_euler_wrench(const double* I, const double* V, const double* A
         W);
 }
 
+void sinew_newton_euler_wrench_across_revolute(const double* X_AB, const double* I_B,
+                                               const double* V_A, const double* V_rel,
+                                               const double* A_A, const double* A_rel,
+                                               double* W_A) {
+  store(newton_euler_across_revolute(load<Pose>(X_AB), load<RigidBodyInertia>(I_B),
+                                     load<VelocityTwist>(V_A), load<VelocityTwist>(V_rel),
+                                     load<AccelerationTwist>(A_A), load<AccelerationTwist>(A_rel)),
+        W_A);
+}
+
 void sinew_acceleration_twist_to_wrench(const double* I, const double* A, double* W) {
   store(newton_euler_at_rest(load<RigidBodyInertia>(I), load<AccelerationTwist>(A)), W);
 }

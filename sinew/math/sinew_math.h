@@ -67,6 +67,12 @@ void sinew_free_fall_from_gravity(const double X[12], const double g[3], double 
 /* The wrench that gives a body with velocity V the acceleration A. */
 void sinew_newton_euler_wrench(const double I[10], const double V[6], const double A[6],
                                double W[6]);
+/* The same, seen from the frame A before the body's revolute joint, where the predecessor moves
+ * with V_A and A_A; V_rel and A_rel are those of the body B with respect to it. */
+void sinew_newton_euler_wrench_across_revolute(const double X_AB[12], const double I_B[10],
+                                               const double V_A[6], const double V_rel[6],
+                                               const double A_A[6], const double A_rel[6],
+                                               double W_A[6]);
 void sinew_acceleration_twist_to_wrench(const double I[10], const double A[6], double W[6]);
 void sinew_transform_wrench_to_proximal(const double X_AB[12], const double W_B[6], double W_A[6]);
 void sinew_accumulate_wrench(const double a[6], const double b[6], double c[6]);
@@ -193,7 +199,7 @@ void sinew_floating_momentum_matrix_from_columns(const double* const columns[], 
 #endif
 
 #include "sinew_math_control.h"
-#include "sinew_math_relative.h"
 #include "sinew_math_joints.h"
+#include "sinew_math_relative.h"
 
 #endif

@@ -94,6 +94,12 @@ std::vector<Kernel> make_kernels() {
       row("newton-euler-wrench",
           []<typename S>(const RigidBodyInertia<S>& I, const VelocityTwist<S>& V,
                          const AccelerationTwist<S>& A) { return newton_euler(I, V, A); }),
+      row("newton-euler-wrench-across-revolute",
+          []<typename S>(const Pose<S>& X, const RigidBodyInertia<S>& I, const VelocityTwist<S>& V,
+                         const VelocityTwist<S>& V_relative, const AccelerationTwist<S>& A,
+                         const AccelerationTwist<S>& A_relative) {
+            return newton_euler_across_revolute(X, I, V, V_relative, A, A_relative);
+          }),
       row("acceleration-twist-to-wrench",
           []<typename S>(const RigidBodyInertia<S>& I, const AccelerationTwist<S>& A) {
             return newton_euler_at_rest(I, A);

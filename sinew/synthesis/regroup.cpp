@@ -1,6 +1,7 @@
 #include "sinew/synthesis/regroup.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sinew/math/inertia.h"
 #include "sinew/math/layout.h"
@@ -62,9 +63,51 @@ Inertias stated_inertias(const Context& context) {
   return inertias;
 }
 
-void regroup(const Context& context, Inertias& inertias) {
+namespace {
+
+bool turns_by_itself(const Context& context, const RobotJoint& joint) {
+  return joint.kind == "revolute" && free_part(context, joint.joint).whole == nullptr;
+}
+
+// The only joint behind a body, if there is one.
+const RobotJoint* only_successor(const Context& context, Id body) {
+  const RobotJoint* only = nullptr;
+  for (const RobotJoint& one : context.robot.joints) {
+    if (one.predecessor != body) continue;
+    if (only != nullptr) return nullptr;
+    only = &one;
+  }
+  return only;
+}
+
+// Takes so much mass from the successor, at a point of the axis between the two, that the body's
+// first moment loses x or y.
+void balance(const Context& context, const RobotJoint& joint, double most, Inertias& inertias) {
+  const RobotJoint* next = only_successor(context, joint.successor);
+  if (next == nullptr || !turns_by_itself(context, joint) || !turns_by_itself(context, *next) ||
+      !inertias.contains(joint.successor) || !inertias.contains(next->successor)) {
+    return;
+  }
+  const math::Pose<double> X = placement(context, next->joint);
+  const bool along_x = std::abs(X.p.x) > std::abs(X.p.y);
+  const double lever = along_x ? X.p.x : X.p.y;
+  const std::size_t number = along_x ? 1 : 2;  // m hx hy ...
+  const double moment = inertias.at(joint.successor)[number];
+  if (moment == 0 || std::abs(moment) > most * std::abs(lever)) return;
+  const Inertia moved = {-moment / lever, {0, 0, 0}, {0, 0, 0, 0, 0, 0}};
+  add(inertias, next->successor, minus(moved));
+  add(inertias, joint.successor, math::transform_to_proximal(X, moved));
+  inertias.at(joint.successor)[number] = 0;
+}
+
+}  // namespace
+
+void regroup(const Context& context, Inertias& inertias, Masses masses) {
+  double all = 0;
+  for (const auto& [body, numbers] : inertias) all += numbers[0];
   const auto& joints = context.robot.joints;
   for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
+    if (masses == Masses::kBalanced) balance(context, *joint, all, inertias);
     const auto found = inertias.find(joint->successor);
     if (found == inertias.end() || free_part(context, joint->joint).whole != nullptr) continue;
     const Inertia moved = indifferent_part(InertiaLayout::load(found->second.data()), joint->kind);

@@ -42,6 +42,7 @@ Step frame_acceleration_step();
 Step own_articulated_inertia_step();
 Step articulated_inertia_step();
 Step drive_step();
+Step drive_with_bias_step();
 Step forward_dynamics_step();
 
 // steps_mass_matrix.cpp

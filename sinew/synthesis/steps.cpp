@@ -33,6 +33,7 @@ std::vector<Step> make_steps() {
       joint_force_step(Motion::kRest),
       own_articulated_inertia_step(),
       articulated_inertia_step(),
+      drive_with_bias_step(),
       drive_step(),
       forward_dynamics_step(),
       composite_inertia_step(),

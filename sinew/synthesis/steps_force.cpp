@@ -1,6 +1,7 @@
 // Forces: the wrench that moves each body as it moves, their sums from the leaves inward, and the
 // share of each sum that acts along the joint.
 #include "sinew/synthesis/block_specs.h"
+#include "sinew/synthesis/free_joint.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/motion.h"
 #include "sinew/synthesis/needed_wrench.h"
@@ -36,8 +37,32 @@ bool helped(Motion motion, const Context& context, Id frame) {
   return motion != Motion::kFull || context.query.forces == Forces::kTogether;
 }
 
+// The revolute joint before a body on which nothing hangs, if its wrench is best computed in the
+// joint's frame: see newton_euler_across_revolute in math/inertia.h.
+const RobotJoint* joint_before_last(Motion motion, const Context& context, const Visit& visit) {
+  if (at_rest(motion) || !context.has("inertia", visit["body"])) return nullptr;
+  if (helped(motion, context, visit.node)) return nullptr;
+  const RobotJoint* before = nullptr;
+  for (const RobotJoint& joint : context.robot.joints) {
+    if (joint.parent_frame == visit.node) return nullptr;
+    if (joint.frame == visit.node) before = &joint;
+  }
+  const bool turns = before != nullptr && before->kind == "revolute" &&
+                     free_part(context, before->joint).whole == nullptr;
+  return turns && before->parent_frame != context.robot.root_frame ? before : nullptr;
+}
+
 // A body without inertia needs none.
 void configure_own(Motion motion, Context& context, const Visit& visit) {
+  if (const RobotJoint* joint = joint_before_last(motion, context, visit)) {
+    context.make(wrench(slot_of(motion, "own-wrench-at-joint"), joint->joint, visit["body"],
+                        joint->joint_frame));
+    context.make({.slot = slot_of(motion, "inverse-pose-across-joint"),
+                  .represents = joint->joint,
+                  .quantity = "pose",
+                  .of = joint->joint_frame,
+                  .wrt = visit.node});
+  }
   const bool with_help = helped(motion, context, visit.node);
   if (with_help)
     context.make(wrench(slot_of(motion, "own-wrench"), visit.node, visit["body"], visit.node));
@@ -58,8 +83,32 @@ void compute_inertial(Motion motion, Context& context, const Visit& visit, Block
                     visit["body"]);
 }
 
+// At the joint, and what whoever asks for it sees from the body.
+void compute_at_joint(Motion motion, Context& context, const Visit& visit, const RobotJoint& joint,
+                      BlockIndex own) {
+  const BlockIndex at_joint = context.block(slot_of(motion, "own-wrench-at-joint"), joint.joint);
+  const BlockIndex pose = context.block("pose-across-joint", joint.joint);
+  const std::string_view relative =
+      is_driven(motion) ? "relative-acceleration" : "no-relative-acceleration";
+  context.closure(
+      "newton-euler-wrench-across-revolute",
+      {pose, context.block("inertia", visit["body"]), context.block("twist-at-joint", joint.joint),
+       context.block("relative-twist", joint.joint),
+       context.block(slot_of(motion, "acceleration-at-joint"), joint.joint),
+       context.block(relative, joint.joint), at_joint},
+      visit["body"]);
+  const BlockIndex inverse =
+      context.block(slot_of(motion, "inverse-pose-across-joint"), joint.joint);
+  context.closure("invert-pose", {pose, inverse}, visit["body"]);
+  context.closure("transform-wrench-to-proximal", {inverse, at_joint, own}, visit["body"]);
+}
+
 void compute_own(Motion motion, Context& context, const Visit& visit) {
   const BlockIndex own = context.block(slot_of(motion, "own-wrench"), visit.node);
+  if (const RobotJoint* joint = joint_before_last(motion, context, visit)) {
+    compute_at_joint(motion, context, visit, *joint, own);
+    return;
+  }
   if (!helped(motion, context, visit.node)) {
     compute_inertial(motion, context, visit, own);
     return;
@@ -79,12 +128,22 @@ BlockIndex needed_wrench_so_far(Motion motion, const Context& context, Id frame)
 
 namespace {
 
+// What the body behind a joint needs for itself alone, where that has been computed at the joint.
+BlockIndex own_wrench_at_joint(Motion motion, const Context& context, const JointEdge& edge) {
+  if (context.board.find(slot_of(motion, "body-wrench"), edge.child) != kNoIndex) return kNoIndex;
+  return context.board.find(slot_of(motion, "own-wrench-at-joint"), edge.joint);
+}
+
 void configure_sum(Motion motion, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const auto make = [&](std::string_view slot, Id of, Id frame) {
     return context.make(wrench(slot_of(motion, slot), edge.joint, of, frame));
   };
-  make("wrench-at-joint", edge.successor, edge.joint_frame);
+  const BlockIndex own = own_wrench_at_joint(motion, context, edge);
+  if (own != kNoIndex)
+    context.board.put(slot_of(motion, "wrench-at-joint"), edge.joint, own);
+  else
+    make("wrench-at-joint", edge.successor, edge.joint_frame);
   make("wrench-at-predecessor", edge.successor, edge.parent);
   context.board.put(slot_of(motion, "wrench-before"), edge.joint,
                     needed_wrench_so_far(motion, context, edge.parent));
@@ -97,10 +156,11 @@ void compute_sum(Motion motion, Context& context, const Visit& visit) {
   const auto block = [&](std::string_view slot) {
     return context.block(slot_of(motion, slot), edge.joint);
   };
-  context.closure("transform-wrench-to-proximal",
-                  {context.block("pose-across-joint", edge.joint),
-                   needed_wrench_so_far(motion, context, edge.child), block("wrench-at-joint")},
-                  edge.joint);
+  if (own_wrench_at_joint(motion, context, edge) == kNoIndex)
+    context.closure("transform-wrench-to-proximal",
+                    {context.block("pose-across-joint", edge.joint),
+                     needed_wrench_so_far(motion, context, edge.child), block("wrench-at-joint")},
+                    edge.joint);
   context.closure("transform-wrench-to-proximal",
                   {context.block("placement", edge.joint), block("wrench-at-joint"),
                    block("wrench-at-predecessor")},
@@ -170,7 +230,8 @@ Step inertia_step() {
 
 Step own_wrench_step(Motion motion) {
   std::vector<std::string> needs = {"inertia", slot_of(motion, "body-acceleration")};
-  if (!at_rest(motion)) needs.push_back("body-twist");
+  if (!at_rest(motion))
+    needs.insert(needs.end(), {"body-twist", "pose-across-joint", "relative-twist"});
   return {.name = slot_of(motion, "own-wrench"),
           .purpose = "Newton and Euler: the wrench that moves each body" + phrase_of(motion),
           .direction = Direction::kLocal,

@@ -2,6 +2,8 @@
 // velocities and gravity need is in the bias forces, which come from inverse dynamics; so the
 // expensive recursion over inertias carries no velocity terms, and the transforms need no Coriolis
 // parts.
+#include <functional>
+
 #include "sinew/base/error.h"
 #include "sinew/synthesis/block_specs.h"
 #include "sinew/synthesis/joint_edge.h"
@@ -92,61 +94,95 @@ void compute_handing_on(Context& context, const Visit& visit) {
                   edge.joint);
 }
 
-// The wrench that a body needs so far because of the forces of the joints behind it; nothing at a
-// leaf.
-BlockIndex drive_so_far(Context& context, Id frame, Id body) {
+// Whether the wrenches that bodies need at the bias travel with those that drive them, in one sum:
+// each travels the same way, and what joints must balance is the sum's share. Where bias forces are
+// there for another reason, the drive travels alone.
+enum class Drive : std::uint8_t { kWithBias, kAlone };
+
+// The wrench that a body needs so far because of the forces of the joints behind it, and at the
+// bias.
+BlockIndex drive_so_far(Drive drive, Context& context, Id frame, Id body) {
   const BlockIndex sum = context.board.find("drive-wrench", frame);
   if (sum != kNoIndex) return sum;
+  if (drive == Drive::kWithBias) return context.block("bias-own-wrench", frame);
   return context.make(zero(at_frame("no-drive-wrench", "wrench", frame, body, frame)));
 }
 
-void configure_drive(Context& context, const Visit& visit) {
+// What a body on which nothing hangs needs at the bias, where that has been computed at its joint.
+BlockIndex bias_at_joint(Drive drive, const Context& context, const JointEdge& edge) {
+  return drive == Drive::kWithBias ? context.board.find("bias-own-wrench-at-joint", edge.joint)
+                                   : kNoIndex;
+}
+
+void configure_drive(Drive drive, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
-  drive_so_far(context, edge.child, edge.successor);
-  for (const std::string_view slot : {"free-force", "force-behind", "drive-force"})
+  drive_so_far(drive, context, edge.child, edge.successor);
+  if (drive == Drive::kAlone) context.make(edge.coordinate("free-force", "force"));
+  for (const std::string_view slot : {"force-behind", "drive-force"})
     context.make(edge.coordinate(slot, "force"));
 }
 
-// u = (tau - h) - S' W
-void compute_drive(Context& context, const Visit& visit) {
+// u = tau - S' W, or (tau - h) - S' W
+void compute_drive(Drive drive, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const std::string subtract = edge.floats() ? "subtract-floating-force" : "subtract-joint-force";
   const auto block = [&](std::string_view slot) { return context.block(slot, edge.joint); };
-  context.closure(subtract, {block("force"), block("bias-force"), block("free-force")}, edge.joint);
+  if (drive == Drive::kAlone)
+    context.closure(subtract, {block("force"), block("bias-force"), block("free-force")},
+                    edge.joint);
   context.closure("force-from-wrench-" + edge.kind,
-                  {drive_so_far(context, edge.child, edge.successor), block("force-behind")},
+                  {drive_so_far(drive, context, edge.child, edge.successor), block("force-behind")},
                   edge.joint);
-  context.closure(subtract, {block("free-force"), block("force-behind"), block("drive-force")},
+  context.closure(subtract,
+                  {block(drive == Drive::kAlone ? "free-force" : "force"), block("force-behind"),
+                   block("drive-force")},
                   edge.joint);
 }
 
-void configure_drive_on(Context& context, const Visit& visit) {
+void configure_drive_on(Drive drive, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const auto make = [&](std::string_view slot, Id of, Id frame) {
     return context.make(at_frame(slot, "wrench", edge.joint, of, frame));
   };
-  make("projected-wrench", edge.successor, edge.child);
+  if (bias_at_joint(drive, context, edge) != kNoIndex)
+    make("unit-wrench-at-joint", edge.successor, edge.joint_frame);
+  else
+    make("projected-wrench", edge.successor, edge.child);
   make("drive-wrench-at-joint", edge.successor, edge.joint_frame);
   make("drive-wrench-at-predecessor", edge.successor, edge.parent);
   context.board.put("drive-wrench-before", edge.joint,
-                    drive_so_far(context, edge.parent, edge.predecessor));
+                    drive_so_far(drive, context, edge.parent, edge.predecessor));
   context.board.put("drive-wrench", edge.parent,
                     make("drive-wrench-with", edge.predecessor, edge.parent));
 }
 
-void compute_drive_on(Context& context, const Visit& visit) {
+void compute_drive_on(Drive drive, Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   const auto block = [&](std::string_view slot) { return context.block(slot, edge.joint); };
-  context.closure("project-wrench",
-                  {drive_so_far(context, edge.child, edge.successor), block("unit-wrench"),
-                   block("unit-force"), block("drive-force"), block("projected-wrench")},
-                  edge.joint);
+  const std::string_view transform = "transform-wrench-to-proximal";
+  const BlockIndex bias = bias_at_joint(drive, context, edge);
+  if (bias != kNoIndex) {
+    // The unit wrench varies less than what it is multiplied with.
+    context.closure(
+        transform,
+        {block("pose-across-joint"), block("unit-wrench"), block("unit-wrench-at-joint")},
+        edge.joint);
+    context.closure("project-wrench",
+                    {bias, block("unit-wrench-at-joint"), block("unit-force"), block("drive-force"),
+                     block("drive-wrench-at-joint")},
+                    edge.joint);
+  } else {
+    context.closure("project-wrench",
+                    {drive_so_far(drive, context, edge.child, edge.successor), block("unit-wrench"),
+                     block("unit-force"), block("drive-force"), block("projected-wrench")},
+                    edge.joint);
+    context.closure(
+        transform,
+        {block("pose-across-joint"), block("projected-wrench"), block("drive-wrench-at-joint")},
+        edge.joint);
+  }
   context.closure(
-      "transform-wrench-to-proximal",
-      {block("pose-across-joint"), block("projected-wrench"), block("drive-wrench-at-joint")},
-      edge.joint);
-  context.closure(
-      "transform-wrench-to-proximal",
+      transform,
       {block("placement"), block("drive-wrench-at-joint"), block("drive-wrench-at-predecessor")},
       edge.joint);
   context.closure("accumulate-wrench",
@@ -200,10 +236,14 @@ void compute_result(Context& context, const Visit& visit) {
         {block("acceleration"), block("no-relative-twist"), block("drive-relative-acceleration")},
         edge.joint);
   } else {
-    context.closure("joint-acceleration-from-force",
-                    {block("drive-force"), block("unit-wrench"), block("unit-force"),
-                     block("drive-acceleration-across-joint"), block("acceleration")},
-                    edge.joint);
+    const bool at_joint = context.has("unit-wrench-at-joint", edge.joint);
+    context.closure(
+        "joint-acceleration-from-force",
+        {block("drive-force"), block(at_joint ? "unit-wrench-at-joint" : "unit-wrench"),
+         block("unit-force"),
+         block(at_joint ? "drive-acceleration-at-joint" : "drive-acceleration-across-joint"),
+         block("acceleration")},
+        edge.joint);
     context.closure("acceleration-to-twist-" + edge.kind,
                     {block("acceleration"), block("drive-relative-acceleration")}, edge.joint);
   }
@@ -245,22 +285,43 @@ Step articulated_inertia_step() {
           .takes_joints_one_by_one = true};
 }
 
+namespace {
+
+Step drive_step_of(Drive drive, std::string name, std::string purpose, std::string bias) {
+  return {.name = std::move(name),
+          .purpose = std::move(purpose),
+          .direction = Direction::kInward,
+          .expansion = std::string(kAcrossJoints),
+          .needs = {"force", std::move(bias), "unit-wrench", "unit-force", "placement",
+                    "pose-across-joint"},
+          .may_use = {},
+          .gives = {"drive-force"},
+          .visitors = {{Where::kEdge,
+                        {},
+                        {},
+                        std::bind_front(configure_drive, drive),
+                        std::bind_front(compute_drive, drive)},
+                       {Where::kEdge,
+                        {std::string(kParentIsNotRoot)},
+                        {},
+                        std::bind_front(configure_drive_on, drive),
+                        std::bind_front(compute_drive_on, drive)}}};
+}
+
+}  // namespace
+
 Step drive_step() {
-  return {
-      .name = "joint-drive",
-      .purpose = "what joint forces leave beyond the bias drives the joints and the bodies before",
-      .direction = Direction::kInward,
-      .expansion = std::string(kAcrossJoints),
-      .needs = {"force", "bias-force", "unit-wrench", "unit-force", "placement",
-                "pose-across-joint"},
-      .may_use = {},
-      .gives = {"drive-force"},
-      .visitors = {{Where::kEdge, {}, {}, configure_drive, compute_drive},
-                   {Where::kEdge,
-                    {std::string(kParentIsNotRoot)},
-                    {},
-                    configure_drive_on,
-                    compute_drive_on}}};
+  return drive_step_of(
+      Drive::kAlone, "joint-drive",
+      "what joint forces leave beyond the bias drives the joints and the bodies before",
+      "bias-force");
+}
+
+Step drive_with_bias_step() {
+  return drive_step_of(
+      Drive::kWithBias, "joint-drive-with-bias",
+      "what joint forces leave beyond what bodies need drives the joints and the bodies before",
+      "bias-own-wrench");
 }
 
 Step forward_dynamics_step() {

@@ -114,6 +114,13 @@ Plan plan_of(const Query& query, const Robot& robot, const Resolved& resolved,
   return plan;
 }
 
+bool uses(const Plan& plan, std::string_view name) {
+  return std::any_of(plan.sweeps.begin(), plan.sweeps.end(), [&](const Sweep& sweep) {
+    return std::any_of(sweep.steps.begin(), sweep.steps.end(),
+                       [&](const Step* step) { return step->name == name; });
+  });
+}
+
 void hand_out(Context& context, const Resolved& resolved) {
   for (const Wanted& wanted : resolved.wanted) {
     if (!wanted.output) continue;
@@ -225,6 +232,10 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   const std::vector<Step> together = steps_together(view, robot, query, resolved, circumstances);
   std::vector<Step> uncoupled = available_steps(drivers, together, models, false);
   std::vector<Step> available = available_steps(drivers, together, models, robot.coupled());
+  // Bias forces are there already, or are not all that bodies need.
+  if (control || resolved.wants("bias-force"))
+    for (std::vector<Step>* list : {&uncoupled, &available})
+      std::erase_if(*list, [](const Step& one) { return one.name == "joint-drive-with-bias"; });
   if (control) {
     uncoupled = steps_with(*control, uncoupled);
     available = steps_with(*control, available);
@@ -256,7 +267,9 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   context.transaction = &transaction;
   context.gravity = circumstances.gravity;
   context.inertias = stated_inertias(context);
-  if (query.regroup && resolved.regroups) regroup(context, context.inertias);
+  if (query.regroup && resolved.regroups)
+    regroup(context, context.inertias,
+            uses(plan, "composite-inertia") ? Masses::kZero : Masses::kBalanced);
   write_asks(store, transaction, result.algorithm, resolved, wrenches, context.drivers);
   if (!control) set_scope(context, resolved);  // a task may speak of any joint
   if (control) context.control = &*control;

@@ -219,6 +219,19 @@ TEST_P(SpatialAlgebra, ABodyAtRestNeedsNoVelocity) {
               dense(newton_euler(I, VelocityTwist<double>{}, A)));
 }
 
+// Seen from the frame before the joint, and by way of the body's own frame.
+TEST_P(SpatialAlgebra, NewtonAndEulerAcrossARevoluteJointAreThoseOfTheBody) {
+  const Pose<double> X_AB = revolute_pose(3.0 * random.number());
+  const RigidBodyInertia<double> I = random.inertia();
+  const VelocityTwist<double> V_A = random.velocity(), V_rel = revolute_velocity(random.number());
+  const AccelerationTwist<double> A_A = random.acceleration();
+  const AccelerationTwist<double> A_rel = revolute_acceleration(random.number());
+  const VelocityTwist<double> V_B = add(transform_to_distal(X_AB, V_A), V_rel);
+  const AccelerationTwist<double> A_B = add(transform_to_distal(X_AB, V_A, V_rel, A_A), A_rel);
+  const Wrench<double> W_A = newton_euler_across_revolute(X_AB, I, V_A, V_rel, A_A, A_rel);
+  expect_near(dense(W_A), dense(transform_to_proximal(X_AB, newton_euler(I, V_B, A_B))));
+}
+
 TEST_P(SpatialAlgebra, RotationsKeepTheReferencePoint) {
   const Pose<double> X_AB = random.pose();
   const EigenMatrix3 R = dense(X_AB.R);

@@ -50,6 +50,10 @@ class Traced {
   friend bool is_exactly(const Traced& a, double value) {
     return a.dag_ != nullptr ? a.dag_->is_constant(a.ref_, value) : a.value_ == value;
   }
+  friend bool is_same(const Traced& a, const Traced& b) {
+    Dag* dag = either(a, b);
+    return dag != nullptr ? a.in(*dag) == b.in(*dag) : a.value_ == b.value_;
+  }
   // `x` where a < b, otherwise `y`; formulas of `math` call it instead of branching.
   friend Traced select_less(const Traced& a, const Traced& b, const Traced& x, const Traced& y) {
     Dag* dag = either(a, b);
