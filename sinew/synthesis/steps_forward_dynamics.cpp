@@ -1,5 +1,5 @@
 // Forward dynamics: the articulated-body algorithm (Featherstone 1983) for a robot at rest. What
-// velocities and gravity need is in the bias forces, which come from inverse dynamics; so the
+// velocities and gravity need is in the bias wrenches, which come from inverse dynamics; so the
 // expensive recursion over inertias carries no velocity terms, and the transforms need no Coriolis
 // parts.
 #include <functional>

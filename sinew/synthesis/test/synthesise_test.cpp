@@ -75,7 +75,8 @@ TEST_F(SynthesiseTest, UsesTheOperatorOfEachJointsKind) {
   const algorithm::Algorithm rnea = algorithm_of(named_query("rnea"));
   EXPECT_EQ(count(rnea, "position-to-pose-revolute"), 3u);
   EXPECT_EQ(count(rnea, "position-to-pose-prismatic"), 1u);
-  EXPECT_EQ(count(rnea, "newton-euler-wrench"), 4u);
+  EXPECT_EQ(count(rnea, "newton-euler-wrench"), 3u);
+  EXPECT_EQ(count(rnea, "newton-euler-wrench-across-revolute"), 1u);  // D ends behind a revolute
   EXPECT_EQ(count(rnea, "accumulate-wrench"), 3u);  // onto A twice, onto B once, not onto the base
 }
 
@@ -211,6 +212,14 @@ TEST_F(SynthesiseTest, RegroupsInertiasUnlessTheQueryOrSomethingAskedForbidsIt) 
   EXPECT_EQ(mass_of_D(query), 0.0);
   query.regroup = false;
   EXPECT_EQ(mass_of_D(query), 1.5);
+}
+
+// What bodies need at the bias goes inward with what drives them, unless bias forces are asked too.
+TEST_F(SynthesiseTest, CarriesOneSumOfWrenchesInwardForForwardDynamics) {
+  Query query = named_query("aba");
+  EXPECT_EQ(count(algorithm_of(query), "accumulate-wrench"), 3u);
+  query.asked.push_back({"bias-force", std::string(kEveryJoint), ""});
+  EXPECT_EQ(count(algorithm_of(query), "accumulate-wrench"), 6u);
 }
 
 TEST_F(SynthesiseTest, RefusesForwardDynamicsOfALeafWithoutInertia) {
