@@ -44,7 +44,7 @@ std::optional<Matrix3> read_rotation(GraphReader& reader, Id node) {
                    fmt::format("the direction cosines are off a rotation by {:.2g}", error),
                    "the nearest rotation is used; write more digits");
   }
-  return error > kSnapTolerance ? nearest_rotation(*R) : *R;
+  return error > kOrthonormalRoundOff ? nearest_rotation(*R) : *R;
 }
 
 std::optional<Vector3> read_vector(GraphReader& reader, Id node, std::string_view what) {

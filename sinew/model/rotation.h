@@ -6,16 +6,19 @@
 
 namespace sinew::model {
 
-// Entries closer than this to 0, 1 or -1 are exactly that: what pi/2 leaves behind after a cosine,
-// and no number that somebody wrote. (1.5708 is not pi/2 and stays what it is.)
-constexpr double kSnapTolerance = 1e-12;
+// Entries closer than this to 0, 1 or -1 are exactly that: what pi/2 leaves behind after a cosine
+// and some frames composed, and no number that somebody wrote. (1.5708 is not pi/2 and stays what
+// it is, and so does 3.14159265359; a light floating base turns 1e-13 of an inertia into 1e-8 of an
+// acceleration.)
+constexpr double kSnapTolerance = 1e-14;
 // The same for the sine and cosine of an angle that was read: what rounding pi/2 to a double
 // leaves.
 constexpr double kAngleTolerance = 1e-15;
 
 // How far a stated rotation's columns may be from orthonormal: up to the first, it is taken as it
-// is or made orthonormal in silence; up to the second, with a warning; beyond, it is refused. The
-// second is the tolerance of the published shapes.
+// is; up to the second, made orthonormal in silence; up to the third, with a warning; beyond, it is
+// refused. The third is the tolerance of the published shapes.
+constexpr double kOrthonormalRoundOff = 1e-12;
 constexpr double kOrthonormalWarning = 1e-6;
 constexpr double kOrthonormalError = 1e-3;
 

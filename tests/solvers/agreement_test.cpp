@@ -152,8 +152,7 @@ void expect_agreement_of_floating(const Robot& robot, unsigned states) {
   EXPECT_LT(errors.pose, 1e-10);
   EXPECT_LT(errors.force, 1e-8);
   EXPECT_LT(errors.mass_matrix, 1e-8);
-  // As near as the libraries are to the accelerations that the forces were made of.
-  EXPECT_LT(errors.acceleration, 2e-8);
+  EXPECT_LT(errors.acceleration, 1e-8);
   EXPECT_LT(errors.round_trip, 1e-8);
 }
 

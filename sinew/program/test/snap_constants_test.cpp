@@ -18,7 +18,7 @@ Variable constant(const std::string& quantity, std::vector<double> value) {
 TEST(SnapConstants, MakesRotationsExact) {
   Program p;
   p.variables = {
-      constant("pose", {6e-17, -1 + 1e-16, 0, 0.4, 1, 6e-17, 1e-13, 3e-17, 0, 0, 0.999, 0})};
+      constant("pose", {6e-17, -1 + 1e-16, 0, 0.4, 1, 6e-17, 4e-15, 3e-17, 0, 0, 0.999, 0})};
   const auto snapped = snap_constants(p);
   EXPECT_EQ(p.variables[0].value, (std::vector<double>{0, -1, 0, 0.4, 1, 0, 0, 0, 0, 0, 0.999, 0}));
   ASSERT_EQ(snapped.size(), 5U);
