@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iostream>
 
+#include "sinew/model/coarse_snap.h"
+
 namespace sinew::cli {
 
 std::optional<int> parse(CLI::App& app, Arguments arguments) {
@@ -60,6 +62,10 @@ void add_query_options(CLI::App& app, QueryOptions& options) {
       "--gravity", options.gravity,
       "Gravity vector x,y,z in m/s^2 seen from the base (default: the model's); input: it "
       "comes with each call");
+  app.add_option("--snap", options.snap,
+                 "Take the robot's constants within so much of 0, 1 or -1 for that, and say which "
+                 "were changed (default: what round-off leaves, 1e-14)")
+      ->check(CLI::Range(0.0, model::kCoarsestSnap));
   app.add_flag("--floating", options.floating, "The base moves freely");
   app.add_flag("--forces-apart", options.forces_apart,
                "Keep the share of each external wrench in each joint's force apart");

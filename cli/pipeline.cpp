@@ -138,8 +138,9 @@ synthesis::Query query_of(std::vector<synthesis::Query> queries, const QueryOpti
 
 namespace {
 
-void normalise(Models& models, const synthesis::Query& query) {
+void normalise(Models& models, const synthesis::Query& query, std::optional<double> snap) {
   model::NormaliseOptions options;
+  if (snap) options.snap_tolerance = *snap;
   options.base = query.base;
   options.tips = query.tips;
   if (query.gravity)
@@ -188,18 +189,25 @@ graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOpt
   if (!names_query(options)) {
     const auto task = task_of(models);
     const bool has_algorithm = !algorithm::find_algorithms(models.store.view()).empty();
-    if (!task || (!task->solver && has_algorithm)) return only_algorithm(models);
-    if (!task->solver) return algorithm_of(models, query_of_signals(options, task), why);
-    return algorithm_of(models, query_of_task(models, options, task), why);
+    if (!task || (!task->solver && has_algorithm)) {
+      const graph::Id algorithm = only_algorithm(models);
+      if (options.snap)
+        fail("--snap changes a robot, and the algorithm has been made of one already",
+             "give the robot's models and a query");
+      return algorithm;
+    }
+    if (!task->solver)
+      return algorithm_of(models, query_of_signals(options, task), why, options.snap);
+    return algorithm_of(models, query_of_task(models, options, task), why, options.snap);
   }
-  return algorithm_of(models, query_of(queries_of(files, options), options), why);
+  return algorithm_of(models, query_of(queries_of(files, options), options), why, options.snap);
 }
 
-graph::Id algorithm_of(Models& models, const synthesis::Query& asked,
-                       std::vector<std::string>* why) {
+graph::Id algorithm_of(Models& models, const synthesis::Query& asked, std::vector<std::string>* why,
+                       std::optional<double> snap) {
   synthesis::Query query = asked;
   if (!query.task) query.task = task_of(models);
-  normalise(models, query);
+  normalise(models, query, snap);
   synthesis::Synthesis synthesis = synthesised(models, query);
   for (const std::string& note : synthesis.notes) print_note(note);
   if (why != nullptr) *why = std::move(synthesis.why);

@@ -26,11 +26,12 @@ std::unique_ptr<Models> load(const ModelOptions& options);
 
 // The algorithm that answers the query, in its own graph of the store; or the one that the files
 // hold, when no query is named. Notes go to standard error. Returns the algorithm's node.
-// `why` gets a line for each step that the planner chose.
+// `why` gets a line for each step that the planner chose; `snap` is QueryOptions::snap.
 graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOptions& query,
                        std::vector<std::string>* why = nullptr);
 graph::Id algorithm_of(Models& models, const synthesis::Query& query,
-                       std::vector<std::string>* why = nullptr);
+                       std::vector<std::string>* why = nullptr,
+                       std::optional<double> snap = std::nullopt);
 
 // Each query that the options name, as it is; and all of them as one, with the options' base, tips,
 // gravity and policies.

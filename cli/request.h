@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct QueryOptions {
   std::string base;
   std::vector<std::string> tips;
   std::string gravity;  // "x,y,z" in m/s^2, seen from the base; "input"; empty: the model's
+  std::optional<double> snap;  // NormaliseOptions::snap_tolerance, where it is not round-off
   bool floating = false;
   bool forces_apart = false;
   bool stationary_frames = false;

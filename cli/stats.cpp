@@ -110,7 +110,8 @@ std::vector<std::pair<std::string, program::OperationCount>> apart(Models& model
   for (synthesis::Query& query : queries) {
     if (query.asked.empty()) continue;  // it only gives more to the others
     const std::string name = query.name;
-    const graph::Id algorithm = algorithm_of(models, query_of({std::move(query)}, options));
+    const graph::Id algorithm =
+        algorithm_of(models, query_of({std::move(query)}, options), nullptr, options.snap);
     programs.emplace_back(name, generated(lowered(models, algorithm, "statistics")).operations);
   }
   return programs;

@@ -341,11 +341,13 @@ int save(LoadedScene& scene, const Asked& asked) {
   }
   world::copy_declarations(scene.models->store, out);
   print_notes(report);
-  if (asked.output.ends_with(".ttl")) {
+  const bool turtle = asked.output.ends_with(".ttl");
+  if (turtle || asked.output.ends_with(".trig")) {
     rdf::WriteOptions options;
     options.prefixes = known_prefixes();
     for (const auto& [name, space] : prefixes_of(scene)) options.prefixes.set(name, space);
-    write_output(asked.output, rdf::write_rdf(rdf::quads_of(out.view()), rdf::Syntax::kTurtle,
+    write_output(asked.output, rdf::write_rdf(rdf::quads_of(out.view()),
+                                              turtle ? rdf::Syntax::kTurtle : rdf::Syntax::kTriG,
                                               out.terms(), options));
   } else {
     const catalogue::Catalogue catalogue;
@@ -408,9 +410,10 @@ const Verb kVerbs[] = {
      [](CLI::App& app, Asked& asked) {
        app.add_flag("--with-robot", asked.with_robot,
                     "Also the robot's frames, joints and shapes, so that the file stands alone");
-       app.add_option("-o,--output", asked.output,
-                      "FILE.jsonld or FILE.ttl (default: JSON-LD on "
-                      "standard output)");
+       app.add_option(
+           "-o,--output", asked.output,
+           "FILE.jsonld, FILE.trig, or FILE.ttl where nothing is in named graphs (default: "
+           "JSON-LD on standard output)");
      }},
 };
 

@@ -160,6 +160,16 @@ constexpr Row kRows[] = {
      "acceleration-twist.at = rigid-body-inertia.at; wrench.at = rigid-body-inertia.at; "
      "acceleration-twist.of = rigid-body-inertia.of; wrench.of = rigid-body-inertia.of",
      "n = I al + h x a, f = m a + al x h"},
+    {"acceleration-twist-to-wrench-across-revolute",
+     SINEW_OWN "acceleration-twist-to-wrench-across-revolute",
+     "pose:pose rigid-body-inertia:rigid-body-inertia acceleration-twist:acceleration-twist "
+     "relative-acceleration:acceleration-twist -> wrench:wrench",
+     "rigid-body-inertia.at = pose.of; acceleration-twist.at = pose.wrt; "
+     "relative-acceleration.at = pose.of; "
+     "relative-acceleration.wrt = acceleration-twist.of; "
+     "relative-acceleration.of = rigid-body-inertia.of; wrench.at = pose.wrt; "
+     "wrench.of = rigid-body-inertia.of",
+     "with al = al_A + q'' z, h = R h_B, I = R I_B R': n = I al + h x a_A, f = m a_A + al x h"},
     {"transform-wrench-to-proximal", SINEW_DYNAMICS "TransformWrenchToProximal",
      "pose:pose from:wrench -> to:wrench", "from.at = pose.of; to.at = pose.wrt; to.of = from.of",
      "f_A = R f_B, n_A = R n_B + p x f_A"},

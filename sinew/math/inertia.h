@@ -101,6 +101,21 @@ Wrench<S> newton_euler_at_rest(const RigidBodyInertia<S>& I, const AccelerationT
           I.mass * A.linear + cross(al, I.first_moment)};
 }
 
+// Both at once: a body at rest, behind a revolute joint, seen from the joint's frame. The rotated
+// second moments are those that newton_euler_across_revolute needs; I = tr(S) 1 - S.
+template <typename S>
+Wrench<S> newton_euler_at_rest_across_revolute(const Pose<S>& X_AB, const RigidBodyInertia<S>& I_B,
+                                               const AccelerationTwist<S>& A_A,
+                                               const AccelerationTwist<S>& A_relative) {
+  const Symmetric3<S> M = rotate(X_AB.R, second_moments(I_B.rotational));
+  const Vector3<S> h = X_AB.R * I_B.first_moment;
+  const Vector3<S> al = {A_A.angular.x, A_A.angular.y, A_A.angular.z + A_relative.angular.z};
+  const Vector3<S> rotation = {(M.yy + M.zz) * al.x - M.xy * al.y - M.xz * al.z,
+                               (M.xx + M.zz) * al.y - M.xy * al.x - M.yz * al.z,
+                               I_B.rotational.zz * al.z - M.xz * al.x - M.yz * al.y};
+  return {rotation + cross(h, A_A.linear), I_B.mass * A_A.linear + cross(al, h)};
+}
+
 // The same inertia seen from A and about A's origin: with h_A = R h + m p,
 // I_A = R I R^T + (h_R . p + p . h_A) 1 - p h_R^T - h_A p^T where h_R = R h (Steiner's theorem).
 template <typename S>

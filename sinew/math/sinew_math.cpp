@@ -98,6 +98,15 @@ void sinew_acceleration_twist_to_wrench(const double* I, const double* A, double
   store(newton_euler_at_rest(load<RigidBodyInertia>(I), load<AccelerationTwist>(A)), W);
 }
 
+void sinew_acceleration_twist_to_wrench_across_revolute(const double* X_AB, const double* I_B,
+                                                        const double* A_A, const double* A_rel,
+                                                        double* W_A) {
+  store(newton_euler_at_rest_across_revolute(load<Pose>(X_AB), load<RigidBodyInertia>(I_B),
+                                             load<AccelerationTwist>(A_A),
+                                             load<AccelerationTwist>(A_rel)),
+        W_A);
+}
+
 void sinew_transform_wrench_to_proximal(const double* X_AB, const double* W_B, double* W_A) {
   store(transform_to_proximal(load<Pose>(X_AB), load<Wrench>(W_B)), W_A);
 }

@@ -74,6 +74,9 @@ void sinew_newton_euler_wrench_across_revolute(const double X_AB[12], const doub
                                                const double A_A[6], const double A_rel[6],
                                                double W_A[6]);
 void sinew_acceleration_twist_to_wrench(const double I[10], const double A[6], double W[6]);
+void sinew_acceleration_twist_to_wrench_across_revolute(const double X_AB[12], const double I_B[10],
+                                                        const double A_A[6], const double A_rel[6],
+                                                        double W_A[6]);
 void sinew_transform_wrench_to_proximal(const double X_AB[12], const double W_B[6], double W_A[6]);
 void sinew_accumulate_wrench(const double a[6], const double b[6], double c[6]);
 void sinew_rotate_wrench_to_proximal(const double X_AB[12], const double W_B[6], double W_A[6]);

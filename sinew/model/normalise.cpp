@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "sinew/model/choose_frames.h"
+#include "sinew/model/coarse_snap.h"
 #include "sinew/model/compound.h"
 #include "sinew/model/couple.h"
 #include "sinew/model/inertia.h"
@@ -340,10 +344,16 @@ Tree normalise(graph::Store& store, const graph::Places& places, const Normalise
   add_inertias(work);
   add_gravity(work);
   if (report.has_errors()) return {};
-  snap(work.tree, options.snap_tolerance);
+  // Round-off first: it is not worth a word.
+  const double round_off = std::min(options.snap_tolerance, kSnapTolerance);
+  snap(work.tree, round_off);
+  if (options.snap_tolerance > kSnapTolerance) {
+    std::ranges::move(snap_coarsely(work.tree, options.snap_tolerance, store.terms()),
+                      std::back_inserter(work.tree.notes));
+  }
   if (options.choose_frames) {
-    choose_frames(work.tree, options.snap_tolerance);
-    snap(work.tree, options.snap_tolerance);
+    choose_frames(work.tree, round_off);
+    snap(work.tree, round_off);
   }
   name_frames(work);
   return std::move(work.tree);

@@ -32,8 +32,8 @@ struct NormaliseOptions {
   // Turns and slides joint frames about and along their axes, so that constants become 0 or 1.
   // Frames of the model stay where they are; only frames that nobody named move.
   bool choose_frames = true;
-  // Constants within it of 0, 1 or -1 become that. A coarser one (1e-4 takes 1.5708 for pi/2)
-  // changes results by as much.
+  // Constants within it of 0, 1 or -1 become that. A coarser one (1e-4 takes 1.5708 for pi/2; at
+  // most kCoarsestSnap) changes results by as much; Tree::notes then say what it has changed.
   double snap_tolerance = kSnapTolerance;
 };
 

@@ -104,6 +104,11 @@ std::vector<Kernel> make_kernels() {
           []<typename S>(const RigidBodyInertia<S>& I, const AccelerationTwist<S>& A) {
             return newton_euler_at_rest(I, A);
           }),
+      row("acceleration-twist-to-wrench-across-revolute",
+          []<typename S>(const Pose<S>& X, const RigidBodyInertia<S>& I,
+                         const AccelerationTwist<S>& A, const AccelerationTwist<S>& A_relative) {
+            return newton_euler_at_rest_across_revolute(X, I, A, A_relative);
+          }),
       row("transform-wrench-to-proximal",
           []<typename S>(const Pose<S>& X_AB, const Wrench<S>& W_B) {
             return transform_to_proximal(X_AB, W_B);

@@ -38,9 +38,10 @@ bool helped(Motion motion, const Context& context, Id frame) {
 }
 
 // The revolute joint before a body on which nothing hangs, if its wrench is best computed in the
-// joint's frame: see newton_euler_across_revolute in math/inertia.h.
+// joint's frame: see newton_euler_across_revolute in math/inertia.h. What joint accelerations alone
+// take is computed beside what velocities take, which has turned the inertia already.
 const RobotJoint* joint_before_last(Motion motion, const Context& context, const Visit& visit) {
-  if (at_rest(motion) || !context.has("inertia", visit["body"])) return nullptr;
+  if (motion == Motion::kRest || !context.has("inertia", visit["body"])) return nullptr;
   if (helped(motion, context, visit.node)) return nullptr;
   const RobotJoint* before = nullptr;
   for (const RobotJoint& joint : context.robot.joints) {
@@ -88,15 +89,22 @@ void compute_at_joint(Motion motion, Context& context, const Visit& visit, const
                       BlockIndex own) {
   const BlockIndex at_joint = context.block(slot_of(motion, "own-wrench-at-joint"), joint.joint);
   const BlockIndex pose = context.block("pose-across-joint", joint.joint);
-  const std::string_view relative =
-      is_driven(motion) ? "relative-acceleration" : "no-relative-acceleration";
-  context.closure(
-      "newton-euler-wrench-across-revolute",
-      {pose, context.block("inertia", visit["body"]), context.block("twist-at-joint", joint.joint),
-       context.block("relative-twist", joint.joint),
-       context.block(slot_of(motion, "acceleration-at-joint"), joint.joint),
-       context.block(relative, joint.joint), at_joint},
-      visit["body"]);
+  const BlockIndex inertia = context.block("inertia", visit["body"]);
+  const BlockIndex acceleration =
+      context.block(slot_of(motion, "acceleration-at-joint"), joint.joint);
+  const BlockIndex relative =
+      context.block(is_driven(motion) ? slot_of(motion, "relative-acceleration")
+                                      : std::string("no-relative-acceleration"),
+                    joint.joint);
+  if (at_rest(motion))
+    context.closure("acceleration-twist-to-wrench-across-revolute",
+                    {pose, inertia, acceleration, relative, at_joint}, visit["body"]);
+  else
+    context.closure(
+        "newton-euler-wrench-across-revolute",
+        {pose, inertia, context.block("twist-at-joint", joint.joint),
+         context.block("relative-twist", joint.joint), acceleration, relative, at_joint},
+        visit["body"]);
   const BlockIndex inverse =
       context.block(slot_of(motion, "inverse-pose-across-joint"), joint.joint);
   context.closure("invert-pose", {pose, inverse}, visit["body"]);
@@ -232,6 +240,8 @@ Step own_wrench_step(Motion motion) {
   std::vector<std::string> needs = {"inertia", slot_of(motion, "body-acceleration")};
   if (!at_rest(motion))
     needs.insert(needs.end(), {"body-twist", "pose-across-joint", "relative-twist"});
+  if (motion == Motion::kDriven)
+    needs.insert(needs.end(), {"pose-across-joint", slot_of(motion, "relative-acceleration")});
   return {.name = slot_of(motion, "own-wrench"),
           .purpose = "Newton and Euler: the wrench that moves each body" + phrase_of(motion),
           .direction = Direction::kLocal,

@@ -100,7 +100,7 @@ TEST(WorldCommand, RefusesWhoMayNotWrite) {
 
 TEST(WorldCommand, SavesWhatItWasGivenAndReadsItBack) {
   const Folder folder;
-  for (const char* name : {"saved.jsonld", "saved.ttl"}) {
+  for (const char* name : {"saved.jsonld", "saved.trig"}) {
     const std::string file = (folder / name).string();
     const Result saved = ask("save", {"-o", file});
     EXPECT_EQ(saved.exit_code, 0) << saved.err;

@@ -232,6 +232,16 @@ TEST_P(SpatialAlgebra, NewtonAndEulerAcrossARevoluteJointAreThoseOfTheBody) {
   expect_near(dense(W_A), dense(transform_to_proximal(X_AB, newton_euler(I, V_B, A_B))));
 }
 
+TEST_P(SpatialAlgebra, AcrossARevoluteJointABodyAtRestNeedsNoVelocity) {
+  const Pose<double> X_AB = revolute_pose(3.0 * random.number());
+  const RigidBodyInertia<double> I = random.inertia();
+  const AccelerationTwist<double> A_A = random.acceleration();
+  const AccelerationTwist<double> A_rel = revolute_acceleration(random.number());
+  expect_near(dense(newton_euler_at_rest_across_revolute(X_AB, I, A_A, A_rel)),
+              dense(newton_euler_across_revolute(X_AB, I, VelocityTwist<double>{},
+                                                 VelocityTwist<double>{}, A_A, A_rel)));
+}
+
 TEST_P(SpatialAlgebra, RotationsKeepTheReferencePoint) {
   const Pose<double> X_AB = random.pose();
   const EigenMatrix3 R = dense(X_AB.R);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -104,6 +105,12 @@ TEST(Urdf, DoesNotTakeRoundedQuartersForQuarters) {
       coarse, {urdf(kTwoLinks + joint_text("<axis xyz=\"0 0 1\"/><origin rpy=\"1.5708 0 0\"/>"))},
       options);
   EXPECT_EQ(coarse.tree.joints[0].placement.R.yy, 0);
+  const auto says = std::ranges::find_if(coarse.tree.notes, [](const std::string& note) {
+    return note.find("placement of <") != std::string::npos &&
+           note.find("4 numbers within 0.0001 of 0 or ±1 snapped, by up to 3.67e-06") !=
+               std::string::npos;
+  });
+  EXPECT_NE(says, coarse.tree.notes.end());
 }
 
 struct AxisCase {
