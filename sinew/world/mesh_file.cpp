@@ -1,13 +1,12 @@
 #include "sinew/world/mesh_file.h"
 
-#include <assimp/config.h>
 #include <assimp/scene.h>
 
-#include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
 #include <string_view>
 
+#include "sinew/world/mesh_library.h"
 #include "sinew/world/refuse.h"
 
 namespace sinew::world {
@@ -85,14 +84,8 @@ std::vector<Vector3> load_mesh(const std::string& path, const Vector3& scale) {
   if (size > kMaximumMeshBytes) {
     refuse(path, std::to_string(size) + " bytes", "at most " + std::to_string(kMaximumMeshBytes));
   }
-  Assimp::Importer importer;
-  // Axes are those of the file; Assimp would turn a DAE whose z is up.
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  // Points and lines are no surface; everything else that it can do to a mesh is not asked for.
-  const aiScene* const scene = importer.ReadFile(path, 0);
-  if (!scene || !scene->mRootNode) {
-    refuse(path, "is no mesh: " + std::string(importer.GetErrorString()), "STL, OBJ or DAE");
-  }
+  const std::shared_ptr<const aiScene> scene = import_mesh(path);
+  if (!scene->mRootNode) refuse(path, "is a mesh without nodes", "STL, OBJ or DAE");
   std::vector<Vector3> vertices;
   collect(*scene, *scene->mRootNode, aiMatrix4x4(), scale, 0, path, vertices);
   if (vertices.empty()) refuse(path, "a mesh without a vertex", "one with triangles");
