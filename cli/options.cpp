@@ -64,7 +64,8 @@ void add_query_options(CLI::App& app, QueryOptions& options) {
       "comes with each call");
   app.add_option("--snap", options.snap,
                  "Take the robot's constants within so much of 0, 1 or -1 for that, and say which "
-                 "were changed (default: what round-off leaves, 1e-14)")
+                 "were changed (default: what round-off leaves, 1e-12 of direction cosines, 1e-14 "
+                 "of the rest)")
       ->check(CLI::Range(0.0, model::kCoarsestSnap));
   app.add_flag("--floating", options.floating, "The base moves freely");
   app.add_flag("--forces-apart", options.forces_apart,

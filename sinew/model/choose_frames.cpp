@@ -191,11 +191,11 @@ void move_frame(Tree& tree, std::uint32_t body, const Pose& X) {
   if (b.has_inertia) b.inertia = transformed(b.inertia, back.R, back.p);
 }
 
-void snap(Tree& tree, double tolerance) {
-  for (Tree::Joint& joint : tree.joints) snap(joint.placement, tolerance);
-  for (Tree::Frame& frame : tree.frames) snap(frame.placement, tolerance);
+void snap(Tree& tree, double tolerance, double length_tolerance) {
+  for (Tree::Joint& joint : tree.joints) snap(joint.placement, tolerance, length_tolerance);
+  for (Tree::Frame& frame : tree.frames) snap(frame.placement, tolerance, length_tolerance);
   for (Tree::Body& body : tree.bodies) {
-    if (body.has_inertia) snap(body.inertia, tolerance);
+    if (body.has_inertia) snap(body.inertia, length_tolerance);
   }
 }
 

@@ -20,6 +20,6 @@ void move_frame(Tree& tree, std::uint32_t body, const Pose& X);
 
 // Clears the dust of computing from all constants: what is within `tolerance` of 0, 1 or -1 is
 // that.
-void snap(Tree& tree, double tolerance);
+void snap(Tree& tree, double tolerance, double length_tolerance);
 
 }  // namespace sinew::model

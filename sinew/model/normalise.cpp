@@ -346,14 +346,15 @@ Tree normalise(graph::Store& store, const graph::Places& places, const Normalise
   if (report.has_errors()) return {};
   // Round-off first: it is not worth a word.
   const double round_off = std::min(options.snap_tolerance, kSnapTolerance);
-  snap(work.tree, round_off);
+  const double short_length = std::min(options.snap_tolerance, kLengthTolerance);
+  snap(work.tree, round_off, short_length);
   if (options.snap_tolerance > kSnapTolerance) {
     std::ranges::move(snap_coarsely(work.tree, options.snap_tolerance, store.terms()),
                       std::back_inserter(work.tree.notes));
   }
   if (options.choose_frames) {
     choose_frames(work.tree, round_off);
-    snap(work.tree, round_off);
+    snap(work.tree, round_off, short_length);
   }
   name_frames(work);
   return std::move(work.tree);

@@ -32,7 +32,8 @@ struct NormaliseOptions {
   // Turns and slides joint frames about and along their axes, so that constants become 0 or 1.
   // Frames of the model stay where they are; only frames that nobody named move.
   bool choose_frames = true;
-  // Constants within it of 0, 1 or -1 become that. A coarser one (1e-4 takes 1.5708 for pi/2; at
+  // Direction cosines within it of 0, 1 or -1 become that; lengths and parts of inertias within
+  // kLengthTolerance, if that is less, become 0. A coarser one (1e-4 takes 1.5708 for pi/2; at
   // most kCoarsestSnap) changes results by as much; Tree::notes then say what it has changed.
   double snap_tolerance = kSnapTolerance;
 };

@@ -113,10 +113,10 @@ void snap(Matrix3& R, double tolerance) {
   }
 }
 
-void snap(Pose& X, double tolerance) {
+void snap(Pose& X, double tolerance, double length_tolerance) {
   snap(X.R, tolerance);
   for (double* entry : {&X.p.x, &X.p.y, &X.p.z}) {
-    if (std::abs(*entry) < tolerance) *entry = 0;
+    if (std::abs(*entry) < length_tolerance) *entry = 0;
   }
 }
 

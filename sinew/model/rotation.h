@@ -6,11 +6,13 @@
 
 namespace sinew::model {
 
-// Entries closer than this to 0, 1 or -1 are exactly that: what pi/2 leaves behind after a cosine
-// and some frames composed, and no number that somebody wrote. (1.5708 is not pi/2 and stays what
-// it is, and so does 3.14159265359; a light floating base turns 1e-13 of an inertia into 1e-8 of an
-// acceleration.)
-constexpr double kSnapTolerance = 1e-14;
+// Direction cosines closer than this to 0, 1 or -1 are exactly that: what pi leaves behind that was
+// written with twelve digits, or computed. (1.5708 is not pi/2 and stays what it is.)
+constexpr double kSnapTolerance = 1e-12;
+// The same for lengths [m] and, as a share of the largest of their kind, parts of an inertia: what
+// some frames composed leave behind, and no number that somebody wrote. (A light floating base
+// turns 1e-13 of an inertia into 1e-8 of an acceleration.)
+constexpr double kLengthTolerance = 1e-14;
 // The same for the sine and cosine of an angle that was read: what rounding pi/2 to a double
 // leaves.
 constexpr double kAngleTolerance = 1e-15;
@@ -41,6 +43,6 @@ Matrix3 nearest_rotation(const Matrix3& R);
 double snap(double value, double tolerance);
 void snap(Matrix3& R, double tolerance);
 // Positions snap to 0 only.
-void snap(Pose& X, double tolerance);
+void snap(Pose& X, double tolerance, double length_tolerance);
 
 }  // namespace sinew::model

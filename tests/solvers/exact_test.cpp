@@ -97,8 +97,10 @@ TEST(Exact, ForwardDynamicsOfPublishedRobotsAreThoseOfLongerNumbers) {
                   robot.name.c_str(), floating ? "floating" : "fixed", found.ours, found.force,
                   found.mujoco, found.dart, found.reference);
       EXPECT_LT(found.reference, 1e-14);
-      EXPECT_LT(found.force, 1e-12);
-      EXPECT_LT(found.ours, 1e-10);
+      // Direction cosines within 1e-12 of 0 and ±1 count as that: iiwa.urdf has pi with twelve
+      // digits.
+      EXPECT_LT(found.force, 1e-11);
+      EXPECT_LT(found.ours, 1e-9);
     }
 }
 
