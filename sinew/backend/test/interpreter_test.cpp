@@ -91,26 +91,7 @@ TEST(Interpreter, RefusesAProgramThatIsNotValid) {
 }
 
 TEST(Interpreter, CarriesStatesFromOneEvaluationToTheNext) {
-  program::Program sum;
-  sum.name = "sum";
-  const auto variable = [&](const std::string& name, program::Role role, std::vector<double> value,
-                            bool output) {
-    program::Variable v;
-    v.name = name;
-    v.size = 6;
-    v.role = role;
-    v.value = std::move(value);
-    v.output = output;
-    sum.variables.push_back(std::move(v));
-  };
-  variable("in", program::Role::kInput, {}, false);
-  variable("total", program::Role::kState, {1, 2, 3, 4, 5, 6}, true);
-  variable("sum", program::Role::kInternal, {}, false);
-  variable("zero", program::Role::kConstant, std::vector<double>(6, 0.0), false);
-  sum.closures = {{"accumulate-wrench", "", "", "", {1, 0, 2}},
-                  {"accumulate-wrench", "", "", "", {2, 3, 1}}};
-  sum.schedule = {0, 1};
-  backend::Interpreter interpreter(sum);
+  backend::Interpreter interpreter(test::running_sum());
   const std::vector<double> in(6, 10.0);
   std::vector<double> out(6);
   interpreter.evaluate(in.data(), out.data());

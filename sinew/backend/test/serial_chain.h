@@ -28,6 +28,9 @@ program::Program inverse_dynamics(const std::vector<ChainJoint>& joints,
 // prismatic.
 std::vector<ChainJoint> mixed_chain();
 
+// Adds the input `push` (6 numbers) to the state and output `total`, which begins as 1 2 3 4 5 6.
+program::Program running_sum();
+
 // The same chain in plain textbook form, with dense matrices in the base frame: for comparison.
 std::vector<double> dense_inverse_dynamics(const std::vector<ChainJoint>& joints,
                                            const std::vector<double>& position,
