@@ -117,6 +117,7 @@ int run_check(Arguments arguments) {
   if (!only_shapes && is_robot) {
     model::NormaliseOptions options;
     options.base = base;
+    options.lenient = models_options.lenient;
     const model::Tree tree = model::normalise(models->store, models->places, options, report);
     notes = tree.notes;
     // As the model has them: a joint of several axes is one, with no bodies inside.

@@ -32,7 +32,9 @@ void add_model_options(CLI::App& app, ModelOptions& options) {
                  "File with more synthesis steps (JSON-LD; they may also be among the models); may "
                  "be repeated")
       ->allow_extra_args(false);
-  app.add_flag("--lenient", options.lenient, "Terms that no context defines: warn, do not refuse");
+  app.add_flag("--lenient", options.lenient,
+               "Terms that no context defines, what is no element of URDF, and moments of inertia "
+               "that no real body has: warn, do not refuse");
 }
 
 void add_query_options(CLI::App& app, QueryOptions& options) {

@@ -142,6 +142,7 @@ void normalise(Models& models, const synthesis::Query& query, std::optional<doub
   model::NormaliseOptions options;
   if (snap) options.snap_tolerance = *snap;
   options.base = query.base;
+  options.lenient = models.lenient;
   options.tips = query.tips;
   if (query.gravity)
     options.gravity = model::Vector3{(*query.gravity)[0], (*query.gravity)[1], (*query.gravity)[2]};
@@ -252,6 +253,7 @@ void note_held(const program::Program& program) {
 
 std::unique_ptr<Models> load(const ModelOptions& options) {
   auto models = std::make_unique<Models>();
+  models->lenient = options.lenient;
   model::LoadOptions load_options;
   for (const std::string& folder : options.catalogs) load_options.catalogues.emplace_back(folder);
   load_options.lenient = options.lenient;

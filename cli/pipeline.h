@@ -19,6 +19,7 @@ namespace sinew::cli {
 struct Models {
   graph::Store store;
   graph::Places places;
+  bool lenient = false;  // ModelOptions::lenient
 };
 
 // Reads all files; warnings go to standard error.

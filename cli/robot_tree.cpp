@@ -7,6 +7,7 @@ namespace sinew::cli {
 model::Tree robot_tree(Models& models, const QueryOptions& query) {
   model::NormaliseOptions options;
   options.base = query.base;
+  options.lenient = models.lenient;
   if (!query.gravity.empty()) {
     const auto g = parse_vector3(query.gravity, "--gravity");
     options.gravity = model::Vector3{g[0], g[1], g[2]};

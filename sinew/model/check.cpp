@@ -70,7 +70,7 @@ void check_shapes(graph::Store& store, const graph::Places& places,
 
 void check_numbers(graph::Store& store, const graph::Places& places, Report& report) {
   const Structure structure = read_structure(store, places, report);
-  check_inertias(structure, store.terms(), places, report);
+  check_inertias(structure, store.terms(), places, false, report);
   check_limits(structure, store.terms(), places, report);
   check_poses(store, places, structure, report);
 }

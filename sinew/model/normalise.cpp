@@ -331,7 +331,7 @@ Tree normalise(graph::Store& store, const graph::Places& places, const Normalise
   Work work{store, places, options, report, {}, {}, {}, {}, {}, {}};
   work.structure = read_structure(store, places, report);
   work.tree.notes = work.structure.notes;
-  check_inertias(work.structure, store.terms(), places, report);
+  check_inertias(work.structure, store.terms(), places, options.lenient, report);
   check_limits(work.structure, store.terms(), places, report);
   work.bodies = find_rigid_bodies(work.structure);
   if (report.has_errors()) return {};

@@ -36,6 +36,8 @@ struct NormaliseOptions {
   // kLengthTolerance, if that is less, become 0. A coarser one (1e-4 takes 1.5708 for pi/2; at
   // most kCoarsestSnap) changes results by as much; Tree::notes then say what it has changed.
   double snap_tolerance = kSnapTolerance;
+  // Moments of inertia that no real body has are a warning instead of an error; see plausible.h.
+  bool lenient = false;
 };
 
 Tree normalise(graph::Store& store, const graph::Places& places, const NormaliseOptions& options,

@@ -30,7 +30,7 @@ Violation violation(const math::Symmetric3<double>& I) {
 }  // namespace
 
 void check_inertias(const Structure& structure, const graph::Terms& terms,
-                    const graph::Places& places, Report& report) {
+                    const graph::Places& places, bool lenient, Report& report) {
   for (const Structure::Inertia& inertia : structure.inertias) {
     const Place place = places.find(inertia.coordinate);
     const std::string iri(terms.text(inertia.coordinate));
@@ -54,13 +54,14 @@ void check_inertias(const Structure& structure, const graph::Terms& terms,
                                "{:.3g} kg m^2",
                                -v.moment * v.largest),
                    "give the moments and products of inertia of a real body");
-    } else if (v.triangle > kTriangleError) {
+    } else if (v.triangle > kTriangleError && !lenient) {
       report.error(
           place, iri,
           fmt::format("the moments of inertia violate the triangle inequality by {:.3g} of "
                       "the largest",
                       v.triangle),
-          "each principal moment is at most the sum of the two others");
+          "each principal moment is at most the sum of the two others; correct them, or load "
+          "leniently to compute with them as they are");
     } else if (v.triangle > kTriangleWarning) {
       report.warning(place, iri,
                      fmt::format("the moments of inertia violate the triangle inequality by {:.3g} "

@@ -161,7 +161,7 @@ TEST_P(Gen3Fault, IsRefusedWithItsPlace) {
   EXPECT_FALSE(first->remedy.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, Gen3Fault, testing::Range<std::size_t>(0, 15),
+INSTANTIATE_TEST_SUITE_P(Each, Gen3Fault, testing::Range<std::size_t>(0, faults().size()),
                          [](const auto& info) { return faults()[info.param].name; });
 
 }  // namespace

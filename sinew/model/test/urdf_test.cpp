@@ -310,6 +310,29 @@ TEST(Urdf, LeavesOutUnknownElementsWhereOneAsksForIt) {
   EXPECT_EQ(model.report.problems().size(), 1u);
 }
 
+// As of the stereo camera of a PR2 as it was published: each moment is its own, but no body has
+// them.
+TEST(Urdf, ComputesWithImpossibleMomentsOnlyWhereOneAsksForIt) {
+  std::string body = kTwoLinks + joint_text("");
+  body.replace(body.find("izz=\"1\""), 7, "izz=\"5\"");
+  Model strict;
+  normalise_texts(strict, {urdf(body)});
+  EXPECT_NE(first_error(strict).find("triangle inequality"), std::string::npos);
+  NormaliseOptions options;
+  options.lenient = true;
+  Model lenient;
+  normalise_texts(lenient, {urdf(body)}, options);
+  ASSERT_EQ(first_error(lenient), "");
+  const auto& moments = lenient.tree.bodies[1].inertia.rotational;
+  EXPECT_DOUBLE_EQ(moments.xx + moments.yy + moments.zz, 7);
+  EXPECT_EQ(lenient.report.problems().size(), 1u);
+  // A moment below zero has no equations of motion.
+  body.replace(body.find("izz=\"5\""), 7, "izz=\"-1\"");
+  Model negative;
+  normalise_texts(negative, {urdf(body)}, options);
+  EXPECT_NE(first_error(negative).find("negative moment"), std::string::npos);
+}
+
 TEST(Urdf, RefusesATextBeyondTheLimit) {
   Report report;
   urdf::read(std::string(urdf::kMaximumUrdfBytes + 1, ' '), "big.urdf", false, report);
