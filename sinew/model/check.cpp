@@ -5,6 +5,7 @@
 #include "sinew/model/plausible.h"
 #include "sinew/model/rigid_bodies.h"
 #include "sinew/model/rotation.h"
+#include "sinew/model/sizes.h"
 #include "sinew/model/structure.h"
 #include "sinew/rdf/shacl/report.h"
 #include "sinew/rdf/turtle/reader.h"
@@ -70,6 +71,7 @@ void check_shapes(graph::Store& store, const graph::Places& places,
 
 void check_numbers(graph::Store& store, const graph::Places& places, Report& report) {
   const Structure structure = read_structure(store, places, report);
+  check_sizes(structure, store.terms(), places, report);
   check_inertias(structure, store.terms(), places, false, report);
   check_limits(structure, store.terms(), places, report);
   check_poses(store, places, structure, report);

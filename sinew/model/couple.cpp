@@ -4,6 +4,8 @@
 
 #include <unordered_map>
 
+#include "sinew/model/sizes.h"
+
 namespace sinew::model {
 namespace {
 
@@ -61,6 +63,13 @@ struct Coupler {
       offset += ratio * mimicry.offset;
       ratio *= mimicry.multiplier;
       at = leader->second;
+    }
+    if (!within(ratio, kLargestRatio) || !within(offset, kLargestLength)) {
+      error(joint.mimicry->node,
+            fmt::format("by way of others <{}> follows <{}> more than {:g} times as far",
+                        terms.text(joint.iri), terms.text(at->iri), kLargestRatio),
+            "check the multipliers and offsets of the line");
+      return;
     }
     const auto head = first.find(at->iri);
     if (head == first.end()) {

@@ -13,6 +13,7 @@
 #include "sinew/model/plausible.h"
 #include "sinew/model/rigid_bodies.h"
 #include "sinew/model/rotation.h"
+#include "sinew/model/sizes.h"
 #include "sinew/model/spanning_tree.h"
 #include "sinew/model/structure.h"
 
@@ -244,6 +245,10 @@ void add_inertias(Work& work) {
     }
     Tree::Body& body = work.tree.bodies[index];
     const auto I = transformed(inertia.value, work.poses[inertia.seen_by]->R, *p);
+    if (const std::string what = fault_of_size(I); !what.empty()) {
+      work.error(inertia.coordinate, "about the joint, " + what, "check the number and its unit");
+      continue;
+    }
     body.inertia = body.has_inertia ? body.inertia + I : I;
     body.has_inertia = true;
   }
@@ -259,6 +264,10 @@ void add_inertias(Work& work) {
 void add_gravity(Work& work) {
   Tree& tree = work.tree;
   if (work.options.gravity) {
+    if (!within(*work.options.gravity, kLargestAcceleration))
+      work.report.error({}, "",
+                        fmt::format("the gravity is beyond {:g} m/s^2", kLargestAcceleration),
+                        "give the gravity vector in m/s^2, for example 0,0,-9.81");
     tree.base_acceleration = {{0, 0, 0}, -*work.options.gravity};
     return;
   }
@@ -331,6 +340,7 @@ Tree normalise(graph::Store& store, const graph::Places& places, const Normalise
   Work work{store, places, options, report, {}, {}, {}, {}, {}, {}};
   work.structure = read_structure(store, places, report);
   work.tree.notes = work.structure.notes;
+  check_sizes(work.structure, store.terms(), places, report);
   check_inertias(work.structure, store.terms(), places, options.lenient, report);
   check_limits(work.structure, store.terms(), places, report);
   work.bodies = find_rigid_bodies(work.structure);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sinew/model/read_joints.h"
+#include "sinew/model/sizes.h"
 
 namespace sinew::model {
 namespace {
@@ -164,7 +165,17 @@ class Properties {
                       "state one");
         return;
       }
-      joint.rotor_inertia = *ratio * *ratio * *inertia * *scale;
+      const double reflected = *ratio * *ratio * *inertia * *scale;
+      const bool vanishes = reflected < kSmallestMoment && *ratio != 0 && *inertia != 0;
+      if (vanishes || !within(reflected, kLargestMoment)) {
+        reader_.error(node, ids_.transmission_ratio,
+                      fmt::format("what the joint feels of the rotor is {:g} kg m^2, not between "
+                                  "{:g} and {:g}",
+                                  reflected, kSmallestMoment, kLargestMoment),
+                      "check the ratio, the inertia and its unit");
+        return;
+      }
+      joint.rotor_inertia = reflected;
     });
   }
 

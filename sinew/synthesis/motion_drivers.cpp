@@ -20,6 +20,8 @@ constexpr std::string_view kAxes[] = {"angular-x", "angular-y", "angular-z",
 constexpr std::string_view kEveryJointForce = "joint-force";
 // The normal equations square it, and its square must stay above round-off.
 constexpr double kSmallestDamping = 1e-7;
+// The coupling of constraints has the squares of these, times what the robot makes of them.
+constexpr double kShortestUnitForce = 1e-6, kLongestUnitForce = 1e6;
 
 class Resolver {
  public:
@@ -167,9 +169,12 @@ class Resolver {
                       const std::array<double, 6>& force, std::string label) {
     double square = 0;
     for (const double number : force) square += number * number;
-    if (!std::isfinite(square) || square == 0)
+    if (!(square >= kShortestUnitForce * kShortestUnitForce &&
+          square <= kLongestUnitForce * kLongestUnitForce))
       return refuse(given, "a unit force without a direction",
-                    "six finite numbers, moment first, that are not all zero");
+                    fmt::format("six numbers, moment first, whose length is about 1 (from {:g} to "
+                                "{:g})",
+                                kShortestUnitForce, kLongestUnitForce));
     if (contradicts(given, constraint, force)) return;
     add_direction(constraint, std::move(label), force);
   }

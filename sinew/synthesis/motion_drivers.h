@@ -1,5 +1,6 @@
-// Acceleration constraints, resolved to frames and bodies; and all drivers of a robot in groups, whose effects are propagated one by one.
-// Without a policy there is one group with everything in it.
+// Acceleration constraints, resolved to frames and bodies; and all drivers of a robot in groups,
+// whose effects are propagated one by one. Without a policy there is one group with everything in
+// it.
 #pragma once
 
 #include <array>
@@ -48,7 +49,7 @@ struct DriverGroup {
   bool gravity = false, velocity = false;
   std::vector<std::size_t> wrenches;     // of the external ones, by index
   std::vector<std::size_t> constraints;  // by index
-  std::vector<Id> joints;  // those whose given forces belong to it
+  std::vector<Id> joints;                // those whose given forces belong to it
 
   bool has_joint(Id joint) const;
   bool has_constraint(std::size_t constraint) const;

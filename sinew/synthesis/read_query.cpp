@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sinew/algorithm/names.h"
+#include "sinew/model/sizes.h"
 #include "sinew/rdf/jsonld/load.h"
 
 namespace sinew::synthesis {
@@ -168,13 +169,15 @@ void read_gravity(Reader& reader, Id node, Query& query) {
   bool fine = numbers.size() == 3;
   for (std::size_t i = 0; fine && i < 3; ++i) {
     const auto number = reader.terms().number(numbers[i]);
-    fine = number.has_value();
+    fine = number && model::within(*number, model::kLargestAcceleration);
     vector[i] = number.value_or(0);
   }
   if (fine)
     query.gravity = vector;
   else
-    reader.error(node, "gravity", "has no vector of", "three numbers [m/s^2]");
+    reader.error(
+        node, "gravity", "has no vector of",
+        fmt::format("three numbers [m/s^2], each at most {:g}", model::kLargestAcceleration));
 }
 
 // Of six numbers.

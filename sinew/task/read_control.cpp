@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sinew/task/reader.h"
 #include "sinew/vocab/vocab.h"
 
@@ -156,6 +158,11 @@ SpatialGain read_gain(Reader& reader, Id node, std::string_view property, std::s
   if (about && along && about_scale && along_scale)
     gain.value = {about->x * *about_scale, about->y * *about_scale, about->z * *about_scale,
                   along->x * *along_scale, along->y * *along_scale, along->z * *along_scale};
+  if (!std::ranges::all_of(gain.value, has_good_size))
+    reader.error(gain.id, "",
+                 fmt::format("{} has a number that is neither zero nor from {:g} to {:g}", what,
+                             kSmallestQuantity, kLargestQuantity),
+                 "check the numbers and their units");
   return gain;
 }
 

@@ -90,6 +90,14 @@ bool Reader::read_quantity(Id node, std::string_view what) {
       return false;
     }
     quantity.value = *number * unit->scale;
+    // A number that is not zero does not become it by its unit.
+    if (!has_good_size(*quantity.value) || (*quantity.value == 0 && *number != 0)) {
+      error(node, vocab::qudt::value,
+            fmt::format("its value is {:g} {}, neither zero nor from {:g} to {:g}", *quantity.value,
+                        quantity.unit, kSmallestQuantity, kLargestQuantity),
+            "check the number and its unit");
+      return false;
+    }
   }
   task.quantities.emplace(node, std::move(quantity));
   return true;

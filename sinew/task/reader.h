@@ -1,12 +1,22 @@
 // How the parts of a task are read; the parts themselves are in read_*.cpp.
 #pragma once
 
+#include <cmath>
 #include <string_view>
 
 #include "sinew/model/graph_reader.h"
 #include "sinew/task/task.h"
 
 namespace sinew::task {
+
+// Sizes of gains, references, bounds and periods in SI units, where they are not zero: what a
+// controller makes of them and of what a robot measures stays finite.
+constexpr double kSmallestQuantity = 1e-30, kLargestQuantity = 1e30;
+
+inline bool has_good_size(double number) {
+  const double size = std::abs(number);
+  return size == 0 || (size >= kSmallestQuantity && size <= kLargestQuantity);
+}
 
 struct Reader {
   model::GraphReader graph;

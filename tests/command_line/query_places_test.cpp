@@ -72,7 +72,9 @@ TEST_F(QueryFile, HasItsFaultsAtTheirLines) {
       {{.constraint = R"("of": "tool")"},
        ":12: " + height + "a constraint with no direction; state directions"},
       {{.constraint = R"("of": "tool", "unit-forces": [[0, 0, 0, 0, 0, 0]])"},
-       ":12: " + height + "a unit force without a direction; six finite numbers"},
+       ":12: " + height +
+           "a unit force without a direction; six numbers, moment "
+           "first, whose length is about 1"},
       {{.constraint = R"("of": "tool", "directions": ["linear-z", "linear-z"])"},
        ":12: " + height + "contradictory drivers: tool.linear-z imposes .*; impose it once"},
       {{.constraint = R"("of": "tool", "directions": ["upward"])"}, ":12: .*upward"},

@@ -27,8 +27,9 @@ using QuadSink = std::function<void(const graph::Quad&)>;
 enum class Numbers : std::uint8_t {
   // Doubles in the canonical form of XML Schema with at most 16 digits, whatever their datatype.
   kStandard,
-  // Doubles in the shortest text that reads back to the same value; xsd:decimal as it is written; a
-  // number with a point or an exponent is a double even if it is whole.
+  // Doubles in the shortest text that reads back to the same value; xsd:decimal as it is written,
+  // or with all digits in the place of an exponent; a number with a point or an exponent is a
+  // double even if it is whole.
   kExact,
 };
 

@@ -47,6 +47,14 @@ std::string integer_text(double value) {
   return {buffer.data(), end.ptr};
 }
 
+// xsd:decimal has no exponents: all digits, the fewest that read back to the same value.
+std::string decimal_text(double value) {
+  std::array<char, 400> buffer;  // 5e-324 has 326 characters
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed);
+  return {buffer.data(), end.ptr};
+}
+
 bool is_plain_decimal(std::string_view number) {
   return number.find_first_of("eE") == std::string_view::npos;
 }
@@ -100,8 +108,9 @@ Id ToRdf::number_literal(const json::Value& number, std::string_view datatype) {
   const bool is_double = datatype == rdf_name::kDouble;
   const bool whole = std::trunc(value) == value && std::fabs(value) < kIntegerLimit;
   if (context_.numbers == Numbers::kExact) {
-    if (datatype == rdf_name::kDecimal && is_plain_decimal(number.text())) {
-      return terms_.literal(number.text(), datatype);
+    if (datatype == rdf_name::kDecimal) {
+      const bool plain = is_plain_decimal(number.text());
+      return terms_.literal(plain ? number.text() : decimal_text(value), datatype);
     }
     if (!is_double && is_plain_integer(number.text())) {
       return terms_.literal(number.text(), datatype.empty() ? rdf_name::kInteger : datatype);

@@ -190,6 +190,22 @@ TEST_F(Model, NumbersKeepTheirValueExactly) {
   EXPECT_EQ(items, (std::vector{terms_.real(1.0), terms_.real(-0.0025), terms_.integer(7)}));
 }
 
+// XML Schema's decimals have no exponents, those of JSON have.
+TEST_F(Model, DecimalsWithAnExponentKeepTheirValue) {
+  const std::pair<const char*, double> numbers[] = {
+      {"1e-7", 1e-7}, {"-2.5e-3", -0.0025}, {"1e22", 1e22}, {"5e-324", 5e-324}, {"1e308", 1e308}};
+  for (const auto& [text, value] : numbers) {
+    quads_.clear();
+    load(node("\"@type\": \"Mass\", \"price\": " + std::string(text)));
+    EXPECT_TRUE(report_.problems().empty());
+    const graph::Id price = terms_.find_iri("https://example.org/price");
+    const auto quad = std::find_if(quads_.begin(), quads_.end(),
+                                   [&](const graph::Quad& q) { return q.predicate == price; });
+    ASSERT_NE(quad, quads_.end());
+    EXPECT_EQ(terms_.number(quad->object), value) << terms_.to_string(quad->object);
+  }
+}
+
 TEST_F(Model, AContextThatTheCatalogueLacksIsAnErrorAtThePlaceThatNamesIt) {
   const Problem problem =
       thrown("{\n \"@context\": [\n  \"https://example.org/contxt.json\"\n ]\n}");
