@@ -1,103 +1,119 @@
 #include "sinew/program/passes/factor_sums.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
-#include "sinew/program/passes/polynomials.h"
 #include "sinew/program/passes/small_list.h"
 
 namespace sinew::program {
 namespace {
 
-// A factor of a term: a node, or the size of its coefficient.
-struct Factor {
-  bool constant = false;
-  std::uint32_t node = 0;
-  double value = 0.0;
+// A factor of a term as one number: a node, or behind all nodes the size of its coefficient (whose
+// bits are in the order of the values).
+using Factor = std::uint64_t;
+constexpr Factor kConstant = Factor{1} << 63U;
 
-  auto operator<=>(const Factor&) const = default;
-};
+bool is_scaled(const Term& term) { return std::abs(term.coefficient) != 1.0; }
 
-using FactorList = SmallList<Factor, 16>;
-
-// The factors that may be taken out of a term: at least one other has to stay.
-FactorList factors_of(const Monomial& term) {
-  FactorList factors;
-  const bool scaled = std::abs(term.coefficient) != 1.0;
-  if (term.factors.size() + (scaled ? 1 : 0) < 2) return factors;
-  for (std::size_t k = 0; k < term.factors.size(); ++k) {
-    if (k == 0 || term.factors[k] != term.factors[k - 1]) {
-      factors.push_back({false, term.factors[k], 0.0});
-    }
-  }
-  if (scaled) factors.push_back({true, 0, std::abs(term.coefficient)});
-  return factors;
+Factor size_of(const Term& term) {
+  return kConstant | std::bit_cast<std::uint64_t>(std::abs(term.coefficient));
 }
 
-bool take_out(const Factor& factor, Monomial& term) {
-  const FactorList factors = factors_of(term);
-  if (std::find(factors.begin(), factors.end(), factor) == factors.end()) return false;
-  if (factor.constant) {
-    term.coefficient = term.coefficient < 0.0 ? -1.0 : 1.0;
-  } else {
-    term.factors.erase(std::find(term.factors.begin(), term.factors.end(), factor.node));
-  }
-  return true;
-}
+// Whether a term has a factor that may be taken out: at least one other has to stay.
+bool is_product(const Term& term) { return term.count + (is_scaled(term) ? 1U : 0U) >= 2; }
 
-// Takes out the factor that most terms share, again and again. New sums are appended to the system
-// and looked at in their turn.
-void factor(Polynomials& system, std::uint32_t i) {
-  for (;;) {
-    Monomials& terms = system.polynomial[i].terms;
-    FactorList all;
-    for (const Monomial& term : terms) {
-      const FactorList of_term = factors_of(term);
-      all.append(of_term.begin(), of_term.end());
+class Factoring {
+ public:
+  explicit Factoring(Polynomials& system) : system_(system) {}
+
+  // Takes out the factor that most terms share, again and again. New sums are appended to the
+  // system and looked at in their turn.
+  void run(std::uint32_t i) {
+    for (Factor best = 0; find_most_shared(i, best);) take_out(best, i);
+  }
+
+ private:
+  // The smallest of those that occur most often, if one occurs twice.
+  bool find_most_shared(std::uint32_t i, Factor& best) {
+    all_.clear();
+    for (const Term& term : system_.terms_of(i)) {
+      if (!is_product(term)) continue;
+      const auto factors = system_.factors_of(term);
+      for (std::size_t k = 0; k < factors.size(); ++k) {
+        if (k == 0 || factors[k] != factors[k - 1]) all_.push_back(factors[k]);
+      }
+      if (is_scaled(term)) all_.push_back(size_of(term));
     }
-    std::sort(all.begin(), all.end());
-    // The smallest of those that occur most often.
-    Factor best;
+    std::sort(all_.begin(), all_.end());
     std::size_t best_count = 1;
-    for (std::size_t from = 0; from < all.size();) {
+    for (std::size_t from = 0; from < all_.size();) {
       std::size_t to = from;
-      while (to < all.size() && all[to] == all[from]) ++to;
+      while (to < all_.size() && all_[to] == all_[from]) ++to;
       if (to - from > best_count) {
-        best = all[from];
+        best = all_[from];
         best_count = to - from;
       }
       from = to;
     }
-    if (best_count < 2) return;
-
-    Polynomial inside;
-    inside.origin = system.polynomial[i].origin;
-    Monomials outside;
-    for (Monomial& term : terms) {
-      (take_out(best, term) ? inside.terms : outside).push_back(std::move(term));
-    }
-    collect_terms(inside);
-    const std::uint32_t sum = system.add(std::move(inside));
-    Monomial product;
-    product.factors = {sum};
-    if (best.constant) {
-      product.coefficient = best.value;
-    } else {
-      product.factors = {std::min(best.node, sum), std::max(best.node, sum)};
-    }
-    outside.push_back(std::move(product));
-    system.polynomial[i].terms = std::move(outside);
+    return best_count > 1;
   }
-}
+
+  bool take_out(Factor factor, Term& term) {
+    if (!is_product(term)) return false;
+    if ((factor & kConstant) != 0) {
+      if (!is_scaled(term) || size_of(term) != factor) return false;
+      term.coefficient = term.coefficient < 0.0 ? -1.0 : 1.0;
+      return true;
+    }
+    const auto first = system_.factors.begin() + term.first;
+    const auto last = first + term.count;
+    const auto at = std::find(first, last, static_cast<std::uint32_t>(factor));
+    if (at == last) return false;
+    std::copy(at + 1, last, at);
+    --term.count;
+    return true;
+  }
+
+  void take_out(Factor factor, std::uint32_t i) {
+    const auto first = static_cast<std::uint32_t>(system_.terms.size());
+    const Sum old = system_.sums[i];
+    std::uint32_t outside = old.first;  // the next place for a term that stays
+    for (std::uint32_t k = old.first; k < old.first + old.count; ++k) {
+      Term term = system_.terms[k];
+      if (take_out(factor, term)) {
+        system_.terms.push_back(term);
+      } else {
+        system_.terms[outside++] = term;
+      }
+    }
+    system_.collect_last_terms(first, first);
+    const std::uint32_t sum = system_.add_sum(first, old.origin);
+    if ((factor & kConstant) != 0) {
+      const double value = std::bit_cast<double>(factor & ~kConstant);
+      system_.terms[outside++] = system_.term(value, {&sum, 1});
+    } else {
+      // The new sum has the largest number.
+      const std::uint32_t factors[] = {static_cast<std::uint32_t>(factor), sum};
+      system_.terms[outside++] = system_.term(1.0, factors);
+    }
+    system_.sums[i].count = outside - old.first;
+  }
+
+  Polynomials& system_;
+  SmallList<Factor, 64> all_;  // of the sum that is looked at
+};
 
 }  // namespace
 
-Computation factor_sums(Computation computation) {
-  Polynomials system = read_polynomials(std::move(computation));
-  for (std::uint32_t i = 0; i < system.polynomial.size(); ++i) {
-    if (system.is_polynomial[i] && system.polynomial[i].terms.size() > 1) factor(system, i);
+void factor_sums(Polynomials& system) {
+  system.read();
+  Factoring factoring(system);
+  for (std::uint32_t i = 0; i < system.sums.size(); ++i) {
+    if (system.sums[i].count > 1) factoring.run(i);
   }
-  return write_polynomials(system, Association::kPlain);
+  // Also where nothing was taken out: products are in the order of their factors afterwards.
+  system.write(Association::kPlain);
 }
 
 }  // namespace sinew::program

@@ -3,10 +3,10 @@
 // products.
 #pragma once
 
-#include "sinew/program/dag/dag.h"
+#include "sinew/program/passes/polynomials.h"
 
 namespace sinew::program {
 
-Computation factor_sums(Computation computation);
+void factor_sums(Polynomials& system);
 
 }  // namespace sinew::program

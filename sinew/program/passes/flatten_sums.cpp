@@ -1,11 +1,10 @@
 #include "sinew/program/passes/flatten_sums.h"
 
-#include "sinew/program/passes/polynomials.h"
-
 namespace sinew::program {
 
-Computation flatten_sums(Computation computation) {
-  return write_polynomials(read_polynomials(std::move(computation)), Association::kPlain);
+void flatten_sums(Polynomials& system) {
+  system.read();
+  system.write(Association::kPlain);
 }
 
 }  // namespace sinew::program

@@ -2,10 +2,10 @@
 // what they find then does not depend on where a kernel has put its brackets.
 #pragma once
 
-#include "sinew/program/dag/dag.h"
+#include "sinew/program/passes/polynomials.h"
 
 namespace sinew::program {
 
-Computation flatten_sums(Computation computation);
+void flatten_sums(Polynomials& system);
 
 }  // namespace sinew::program

@@ -1,11 +1,10 @@
 #include "sinew/program/passes/fuse_multiply_add.h"
 
-#include "sinew/program/passes/polynomials.h"
-
 namespace sinew::program {
 
-Computation fuse_multiply_add(Computation computation) {
-  return write_polynomials(read_polynomials(std::move(computation)), Association::kFused);
+void fuse_multiply_add(Polynomials& system) {
+  system.read();
+  system.write(Association::kFused);
 }
 
 }  // namespace sinew::program

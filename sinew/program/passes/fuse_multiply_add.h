@@ -3,10 +3,10 @@
 // change the graph: no other looks into fused operations.
 #pragma once
 
-#include "sinew/program/dag/dag.h"
+#include "sinew/program/passes/polynomials.h"
 
 namespace sinew::program {
 
-Computation fuse_multiply_add(Computation computation);
+void fuse_multiply_add(Polynomials& system);
 
 }  // namespace sinew::program

@@ -1,26 +1,13 @@
 #include "sinew/program/passes/merge_terms.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
-
-#include "sinew/program/passes/polynomials.h"
+#include <vector>
 
 namespace sinew::program {
 namespace {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
-
-// The two nodes of which a node is a linear combination, if it is one.
-bool two_nodes(const Polynomials& system, std::uint32_t i, Pair& pair) {
-  if (!system.is_polynomial[i]) return false;
-  const Monomials& terms = system.polynomial[i].terms;
-  if (terms.size() != 2 || terms[0].factors.size() != 1 || terms[1].factors.size() != 1) {
-    return false;
-  }
-  pair = std::minmax(terms[0].factors[0], terms[1].factors[0]);
-  return true;
-}
 
 class Merging {
  public:
@@ -28,68 +15,117 @@ class Merging {
 
   // Returns whether terms met.
   bool run(std::uint32_t i) {
-    // Linear terms by the two nodes that they combine.
-    std::map<Pair, std::vector<std::size_t>> groups;
-    std::vector<bool> expand(system_.polynomial[i].terms.size(), false);
-    const Monomials& terms = system_.polynomial[i].terms;
-    for (std::size_t k = 0; k < terms.size(); ++k) {
-      Pair pair;
-      if (terms[k].factors.size() == 1 && two_nodes(system_, terms[k].factors[0], pair)) {
-        groups[pair].push_back(k);
-      }
-    }
-    for (const auto& [pair, members] : groups) {
+    find_expandable(i);
+    bool changed = false;
+    const std::span<const Term> terms = system_.terms_of(i);
+    for (std::size_t from = 0; from < expandable_.size();) {
+      std::size_t to = from;
+      const Pair pair = expandable_[from].nodes;
+      while (to < expandable_.size() && expandable_[to].nodes == pair) ++to;
       // Terms that are one of the two nodes itself will meet as well.
-      std::size_t meeting = 0;
-      for (const Monomial& term : terms) {
-        if (term.factors.size() == 1 &&
-            (term.factors[0] == pair.first || term.factors[0] == pair.second)) {
-          ++meeting;
-        }
-      }
+      const auto meets = [&](const Term& term) {
+        if (term.count != 1) return false;
+        const std::uint32_t node = system_.factors[term.first];
+        return node == pair.first || node == pair.second;
+      };
+      const auto meeting =
+          static_cast<std::size_t>(std::count_if(terms.begin(), terms.end(), meets));
       std::size_t freed = 0;  // additions that nobody else uses
-      for (const std::size_t k : members) freed += uses_[terms[k].factors[0]] == 1 ? 1 : 0;
+      for (std::size_t k = from; k < to; ++k) {
+        freed += uses_[system_.factors[terms[expandable_[k].term].first]] == 1 ? 1 : 0;
+      }
       // Before: one addition for each member and each meeting term; after: one for each node.
-      if (members.size() + meeting + freed <= 2) continue;
-      for (const std::size_t k : members) expand[k] = true;
-    }
-    if (std::none_of(expand.begin(), expand.end(), [](bool e) { return e; })) return false;
-
-    Polynomial result;
-    result.origin = system_.polynomial[i].origin;
-    for (std::size_t k = 0; k < expand.size(); ++k) {
-      if (!expand[k]) {
-        result.terms.push_back(terms[k]);
-        continue;
+      if (to - from + meeting + freed > 2) {
+        for (std::size_t k = from; k < to; ++k) expandable_[k].expand = changed = true;
       }
-      const std::uint32_t inner = terms[k].factors[0];
-      for (Monomial term : system_.polynomial[inner].terms) {
-        term.coefficient *= terms[k].coefficient;
-        result.terms.push_back(std::move(term));
-      }
+      from = to;
     }
-    collect_terms(result);
-    system_.polynomial[i] = std::move(result);
-    uses_ = use_counts(system_);
-    return true;
+    if (changed) expand(i);
+    return changed;
   }
 
  private:
+  // A term that is a linear combination of two nodes.
+  struct Expandable {
+    Pair nodes;
+    std::uint32_t term = 0;  // of the sum
+    bool expand = false;
+  };
+
+  // Those of a sum, by the two nodes that they combine.
+  void find_expandable(std::uint32_t i) {
+    expandable_.clear();
+    const std::span<const Term> terms = system_.terms_of(i);
+    for (std::uint32_t k = 0; k < terms.size(); ++k) {
+      if (terms[k].count != 1) continue;
+      const std::uint32_t inner = system_.factors[terms[k].first];
+      if (system_.sums[inner].count != 2) continue;
+      const std::span<const Term> two = system_.terms_of(inner);
+      if (two[0].count != 1 || two[1].count != 1) continue;
+      const Pair nodes = std::minmax(system_.factors[two[0].first], system_.factors[two[1].first]);
+      expandable_.push_back({nodes, k});
+    }
+    std::sort(expandable_.begin(), expandable_.end(),
+              [](const Expandable& a, const Expandable& b) { return a.nodes < b.nodes; });
+  }
+
+  void expand(std::uint32_t i) {
+    const Sum old = system_.sums[i];
+    const auto first = static_cast<std::uint32_t>(system_.terms.size());
+    for (std::uint32_t k = 0; k < old.count; ++k) {
+      const Term outer = system_.terms[old.first + k];
+      const bool expands =
+          std::any_of(expandable_.begin(), expandable_.end(),
+                      [&](const Expandable& e) { return e.expand && e.term == k; });
+      if (!expands) {
+        system_.terms.push_back(outer);
+        continue;
+      }
+      const Sum inner = system_.sums[system_.factors[outer.first]];
+      for (std::uint32_t j = 0; j < inner.count; ++j) {
+        Term term = system_.terms[inner.first + j];
+        term.coefficient *= outer.coefficient;
+        system_.terms.push_back(term);
+      }
+    }
+    system_.collect_last_terms(first, first);
+    system_.sums[i] = {first, static_cast<std::uint32_t>(system_.terms.size()) - first, old.origin};
+    // What the new terms use is in use already, by the sums that they come from.
+    for (const Term& term : system_.terms_of(i)) {
+      for (const std::uint32_t factor : system_.factors_of(term)) ++uses_[factor];
+    }
+    release(old);
+  }
+
+  // The terms of a sum use their factors no more.
+  void release(const Sum& sum) {
+    for (std::uint32_t k = sum.first; k < sum.first + sum.count; ++k) {
+      for (const std::uint32_t factor : system_.factors_of(system_.terms[k])) release(factor);
+    }
+  }
+  void release(std::uint32_t node) {
+    if (--uses_[node] > 0) return;
+    if (system_.is_sum[node] != 0) return release(system_.sums[node]);
+    const Node& operation = system_.graph.dag.node(node);
+    const Ref operands[] = {operation.a, operation.b, operation.c};
+    for (int k = 0; k < arity(operation.op); ++k) release(operands[k].node());
+  }
+
   Polynomials& system_;
   std::vector<std::uint32_t> uses_;
+  std::vector<Expandable> expandable_;  // of the sum that is looked at
 };
 
 }  // namespace
 
-Computation merge_terms(Computation computation) {
-  Polynomials system = read_polynomials(std::move(computation));
+void merge_terms(Polynomials& system) {
+  system.read();
   Merging merging(system);
   bool changed = false;
-  for (std::uint32_t i = 0; i < system.polynomial.size(); ++i) {
-    if (system.is_polynomial[i] && system.polynomial[i].terms.size() > 1) changed |= merging.run(i);
+  for (std::uint32_t i = 0; i < system.sums.size(); ++i) {
+    if (system.sums[i].count > 1) changed |= merging.run(i);
   }
-  if (!changed) return std::move(system.graph);
-  return write_polynomials(system, Association::kPlain);
+  if (changed) system.write(Association::kPlain);
 }
 
 }  // namespace sinew::program

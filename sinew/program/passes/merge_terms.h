@@ -2,10 +2,10 @@
 // saves the additions inside the brackets if nobody else uses them.
 #pragma once
 
-#include "sinew/program/dag/dag.h"
+#include "sinew/program/passes/polynomials.h"
 
 namespace sinew::program {
 
-Computation merge_terms(Computation computation);
+void merge_terms(Polynomials& system);
 
 }  // namespace sinew::program

@@ -9,6 +9,7 @@
 #include "sinew/program/passes/flatten_sums.h"
 #include "sinew/program/passes/fuse_multiply_add.h"
 #include "sinew/program/passes/merge_terms.h"
+#include "sinew/program/passes/polynomials.h"
 #include "sinew/program/passes/reassociate.h"
 #include "sinew/program/passes/schedule.h"
 #include "sinew/program/passes/share_denominators.h"
@@ -17,60 +18,82 @@
 namespace sinew::program {
 namespace {
 
-struct Pass {
+struct GraphPass {
   std::string_view name;
   Computation (*run)(Computation);
+};
+// On a graph seen as polynomials; what one pass has left unchanged the next one need not read.
+struct SumPass {
+  std::string_view name;
+  void (*run)(Polynomials&);
 };
 
 // Constants, identities, value numbering and signs need no pass: the graph's constructors see to
 // them whenever a pass writes a graph.
 
-constexpr Pass kFirst[] = {
+constexpr GraphPass kFirst[] = {
     {"share denominators", share_denominators},
+};
+constexpr SumPass kPrepare[] = {
     {"flatten sums", flatten_sums},
 };
-
 // Each makes work for the others: again as long as operations vanish.
-constexpr Pass kSimplify[] = {
+constexpr SumPass kSimplify[] = {
     {"merge terms", merge_terms},
     {"factor sums", factor_sums},
     {"share sums", share_sums},
 };
 constexpr int kMaximumRounds = 4;
-
-constexpr Pass kLast[] = {
+constexpr SumPass kFinish[] = {
     {"reassociate", reassociate},
     {"fuse multiply-add", fuse_multiply_add},
+};
+constexpr GraphPass kLast[] = {
     {"schedule", schedule},
 };
 
-void run(std::span<const Pass> passes, Computation& computation, const OptimiseOptions& options) {
+template <typename Run>
+void run(std::string_view name, const Computation& computation, const OptimiseOptions& options,
+         Run pass) {
+  if (!options.trace) return pass();
   using Clock = std::chrono::steady_clock;
-  for (const Pass& pass : passes) {
-    PassReport report;
-    report.name = pass.name;
-    if (options.trace) report.before = count_operations(computation);
-    const Clock::time_point start = Clock::now();
-    computation = pass.run(std::move(computation));
-    if (!options.trace) continue;
-    report.time_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-    report.after = count_operations(computation);
-    report.nodes_after = computation.dag.size();
-    options.trace(report);
-  }
+  PassReport report;
+  report.name = name;
+  report.before = count_operations(computation);
+  const Clock::time_point start = Clock::now();
+  pass();
+  report.time_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+  report.after = count_operations(computation);
+  report.nodes_after = computation.dag.size();
+  options.trace(report);
+}
+
+void run(std::span<const GraphPass> passes, Computation& computation,
+         const OptimiseOptions& options) {
+  for (const GraphPass& pass : passes)
+    run(pass.name, computation, options, [&] { computation = pass.run(std::move(computation)); });
+}
+
+void run(std::span<const SumPass> passes, Polynomials& system, const OptimiseOptions& options) {
+  for (const SumPass& pass : passes)
+    run(pass.name, system.graph, options, [&] { pass.run(system); });
 }
 
 }  // namespace
 
 Computation optimise(Computation computation, const OptimiseOptions& options) {
   run(kFirst, computation, options);
-  OperationCount before = count_operations(computation);
+  Polynomials system(std::move(computation));
+  run(kPrepare, system, options);
+  OperationCount before = count_operations(system.graph);
   for (int round = 0; round < kMaximumRounds; ++round) {
-    run(kSimplify, computation, options);
-    const OperationCount after = count_operations(computation);
+    run(kSimplify, system, options);
+    const OperationCount after = count_operations(system.graph);
     if (after.add + after.multiply >= before.add + before.multiply) break;
     before = after;
   }
+  run(kFinish, system, options);
+  computation = std::move(system.graph);
   run(kLast, computation, options);
   return computation;
 }

@@ -13,79 +13,106 @@ namespace {
 
 class Reader {
  public:
-  explicit Reader(Computation graph) {
-    uses_ = use_counts(graph);
-    system_.graph = std::move(graph);
-    system_.is_polynomial.assign(dag().size(), false);
-    system_.polynomial.resize(dag().size());
-  }
+  explicit Reader(Polynomials& system) : system_(system), uses_(use_counts(system.graph)) {}
 
-  Polynomials run() {
-    for (std::uint32_t i = 0; i < dag().size(); ++i) {
+  void run() {
+    const std::uint32_t n = dag().size();
+    system_.is_sum.assign(n, 0);
+    system_.sums.assign(n, {});
+    system_.terms.clear();
+    system_.factors.clear();
+    for (std::uint32_t i = 0; i < n; ++i) {
       if (uses_[i] == 0) continue;
       const Node& node = dag().node(i);
-      Polynomial& polynomial = system_.polynomial[i];
       if (node.op == Op::kAdd) {
-        add_terms(node.a, polynomial);
-        add_terms(node.b, polynomial);
-        collect_terms(polynomial);
+        read_sum(i, node);
       } else if (node.op == Op::kMultiply) {
-        Monomial& monomial = polynomial.terms.emplace_back();
-        add_factors(node.a, monomial);
-        add_factors(node.b, monomial);
-        std::sort(monomial.factors.begin(), monomial.factors.end());
-      } else {
-        continue;
+        read_product(i, node);
       }
-      polynomial.origin = node.origin;
-      system_.is_polynomial[i] = true;
     }
-    return std::move(system_);
   }
 
  private:
   const Dag& dag() const { return system_.graph.dag; }
+  std::uint32_t end() const { return static_cast<std::uint32_t>(system_.terms.size()); }
 
-  bool taken_up(std::uint32_t i) const { return uses_[i] == 1 && system_.is_polynomial[i]; }
+  bool taken_up(std::uint32_t i) const { return uses_[i] == 1 && system_.is_sum[i] != 0; }
 
-  void add_terms(Ref ref, Polynomial& polynomial) {
-    const std::uint32_t i = ref.node();
-    const double sign = ref.negative() ? -1.0 : 1.0;
-    if (dag().is_constant(ref)) {
-      polynomial.terms.push_back({dag().constant_value(ref), {}});
-    } else if (taken_up(i)) {
-      Monomials& inner = system_.polynomial[i].terms;
-      for (Monomial& term : inner) term.coefficient *= sign;
-      if (polynomial.terms.empty()) {
-        polynomial.terms.swap(inner);
-      } else {
-        for (Monomial& term : inner) polynomial.terms.push_back(std::move(term));
-      }
-      inner.clear();
-    } else {
-      polynomial.terms.push_back({sign, {i}});
-    }
+  void read_sum(std::uint32_t i, const Node& node) {
+    std::uint32_t first = end();
+    // What the first operand has is mostly what has been read last: then its terms stay in place.
+    const std::uint32_t a = node.a.node();
+    const Sum& inner = system_.sums[a];
+    if (taken_up(a) && inner.first + inner.count == first) first = inner.first;
+    append_terms(node.a, first);
+    const std::uint32_t distinct = end();
+    append_terms(node.b, end());
+    system_.collect_last_terms(first, distinct);
+    system_.sums[i] = {first, end() - first, node.origin};
+    system_.is_sum[i] = 1;
   }
 
-  void add_factors(Ref ref, Monomial& monomial) {
+  // The terms of an operand, behind the others; where they are there already, `from` is their
+  // place.
+  void append_terms(Ref ref, std::uint32_t from) {
     const std::uint32_t i = ref.node();
     if (dag().is_constant(ref)) {
-      monomial.coefficient *= dag().constant_value(ref);
+      system_.terms.push_back({dag().constant_value(ref), 0, 0});
       return;
     }
-    if (ref.negative()) monomial.coefficient = -monomial.coefficient;
-    if (taken_up(i) && system_.polynomial[i].terms.size() == 1) {
-      const Monomial& inner = system_.polynomial[i].terms.front();
-      monomial.coefficient *= inner.coefficient;
-      monomial.factors.append(inner.factors.begin(), inner.factors.end());
-      system_.polynomial[i].terms.clear();
+    const double sign = ref.negative() ? -1.0 : 1.0;
+    if (!taken_up(i)) {
+      system_.terms.push_back(system_.term(sign, {&i, 1}));
+      return;
+    }
+    Sum& inner = system_.sums[i];
+    if (inner.first == from && inner.count > 0) {
+      if (ref.negative()) {
+        for (Term& term : system_.terms_of(i)) term.coefficient = -term.coefficient;
+      }
     } else {
-      monomial.factors.push_back(i);
+      for (std::uint32_t k = 0; k < inner.count; ++k) {
+        Term term = system_.terms[inner.first + k];
+        term.coefficient *= sign;
+        system_.terms.push_back(term);
+      }
+    }
+    inner.count = 0;
+  }
+
+  void read_product(std::uint32_t i, const Node& node) {
+    Term product{1.0, static_cast<std::uint32_t>(system_.factors.size()), 0};
+    append_factors(node.a, product);
+    append_factors(node.b, product);
+    const auto from = system_.factors.begin() + product.first;
+    product.count = static_cast<std::uint32_t>(system_.factors.end() - from);
+    std::sort(from, system_.factors.end());
+    system_.sums[i] = {end(), 1, node.origin};
+    system_.terms.push_back(product);
+    system_.is_sum[i] = 1;
+  }
+
+  void append_factors(Ref ref, Term& product) {
+    const std::uint32_t i = ref.node();
+    if (dag().is_constant(ref)) {
+      product.coefficient *= dag().constant_value(ref);
+      return;
+    }
+    if (ref.negative()) product.coefficient = -product.coefficient;
+    if (taken_up(i) && system_.sums[i].count == 1) {
+      const Term inner = system_.terms[system_.sums[i].first];
+      product.coefficient *= inner.coefficient;
+      for (std::uint32_t k = 0; k < inner.count; ++k) {
+        system_.factors.push_back(std::uint32_t(system_.factors[inner.first + k]));
+      }
+      system_.sums[i].count = 0;
+    } else {
+      system_.factors.push_back(i);
     }
   }
 
+  Polynomials& system_;
   std::vector<std::uint32_t> uses_;
-  Polynomials system_;
 };
 
 // Builds the graph again, operands first.
@@ -95,8 +122,8 @@ class Writer {
       : system_(system),
         association_(association),
         associate_(result_.dag, association),
-        copy_(system.polynomial.size()) {
-    done_.assign(copy_.size(), false);
+        copy_(system.sums.size()) {
+    done_.assign(copy_.size(), 0);
     result_.inputs = system.graph.inputs;
     result_.dag.reserve(static_cast<std::uint32_t>(copy_.size() + copy_.size() / 4));
   }
@@ -126,31 +153,40 @@ class Writer {
   }
 
   Ref copy(std::uint32_t i) {
-    if (done_[i]) return copy_[i];
-    if (system_.is_polynomial[i]) {
-      const Polynomial& polynomial = system_.polynomial[i];
-      SignedProducts terms;
-      terms.reserve(polynomial.terms.size());
-      for (const Monomial& term : polynomial.terms) {
-        SignedProduct product{term.coefficient, {}};
-        for (const std::uint32_t factor : term.factors) product.factors.push_back(copy(factor));
-        terms.push_back(std::move(product));
-      }
-      result_.dag.set_origin(polynomial.origin);
-      const bool known = i < deadline_.size();
-      copy_[i] = associate_.sum(terms, known ? deadline_[i] : 0.0);
-    } else {
-      const Node& node = system_.graph.dag.node(i);
-      const int operands = arity(node.op);
-      const auto operand = [this](Ref r) { return copy(r.node()).negated_if(r.negative()); };
-      const Ref a = operands > 0 ? operand(node.a) : Ref{};
-      const Ref b = operands > 1 ? operand(node.b) : Ref{};
-      const Ref c = operands > 2 ? operand(node.c) : Ref{};
-      result_.dag.set_origin(node.origin);
-      copy_[i] = result_.dag.make(node, a, b, c);
+    if (done_[i] == 0) {
+      copy_[i] = system_.is_sum[i] != 0 ? copy_of_sum(i) : copy_of_operation(i);
+      done_[i] = 1;
     }
-    done_[i] = true;
     return copy_[i];
+  }
+
+  Ref copy_of_sum(std::uint32_t i) {
+    const std::span<const Term> terms = system_.terms_of(i);
+    for (const Term& term : terms) {
+      for (const std::uint32_t factor : system_.factors_of(term)) copy(factor);
+    }
+    result_.dag.set_origin(system_.sums[i].origin);
+    products_.resize(terms.size());
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      SignedProduct& product = products_[k];
+      product.coefficient = terms[k].coefficient;
+      product.factors.clear();
+      for (const std::uint32_t factor : system_.factors_of(terms[k])) {
+        product.factors.push_back(copy_[factor]);
+      }
+    }
+    return associate_.sum(products_, i < deadline_.size() ? deadline_[i] : 0.0);
+  }
+
+  Ref copy_of_operation(std::uint32_t i) {
+    const Node& node = system_.graph.dag.node(i);
+    const int operands = arity(node.op);
+    const auto operand = [this](Ref r) { return copy(r.node()).negated_if(r.negative()); };
+    const Ref a = operands > 0 ? operand(node.a) : Ref{};
+    const Ref b = operands > 1 ? operand(node.b) : Ref{};
+    const Ref c = operands > 2 ? operand(node.c) : Ref{};
+    result_.dag.set_origin(node.origin);
+    return result_.dag.make(node, a, b, c);
   }
 
   const Polynomials& system_;
@@ -159,22 +195,64 @@ class Writer {
   Associator associate_;
   std::vector<double> deadline_;
   std::vector<Ref> copy_;
-  std::vector<bool> done_;
+  std::vector<std::uint8_t> done_;
+  SignedProducts products_;  // of the sum that is being written
 };
 
 }  // namespace
 
-std::uint32_t Polynomials::add(Polynomial added) {
-  is_polynomial.push_back(true);
-  polynomial.push_back(std::move(added));
-  return static_cast<std::uint32_t>(polynomial.size() - 1);
+void Polynomials::read() {
+  if (!is_read_) Reader(*this).run();
+  is_read_ = true;
 }
 
-Polynomials read_polynomials(Computation graph) { return Reader(std::move(graph)).run(); }
+void Polynomials::write(Association association) {
+  graph = Writer(*this, association).run();
+  is_read_ = false;
+}
+
+Term Polynomials::term(double coefficient, std::span<const std::uint32_t> of) {
+  const Term result{coefficient, static_cast<std::uint32_t>(factors.size()),
+                    static_cast<std::uint32_t>(of.size())};
+  factors.insert(factors.end(), of.begin(), of.end());
+  return result;
+}
+
+std::uint32_t Polynomials::add_sum(std::uint32_t first, std::uint32_t origin) {
+  is_sum.push_back(1);
+  sums.push_back({first, static_cast<std::uint32_t>(terms.size()) - first, origin});
+  return static_cast<std::uint32_t>(sums.size() - 1);
+}
+
+void Polynomials::collect_last_terms(std::uint32_t first, std::uint32_t distinct) {
+  // Mostly there is nothing to collect.
+  const std::span<Term> all(terms.data() + first, terms.size() - first);
+  bool done = true;
+  for (std::size_t a = distinct - first; a < all.size() && done; ++a) {
+    done = all[a].coefficient != 0.0;
+    for (std::size_t b = 0; b < a && done; ++b) done = !same_factors(*this, all[a], all[b]);
+  }
+  if (done) return;
+  std::size_t kept = 0;
+  for (const Term& term : all) {
+    const auto same = std::find_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kept),
+                                   [&](const Term& t) { return same_factors(*this, t, term); });
+    if (same == all.begin() + static_cast<std::ptrdiff_t>(kept)) {
+      all[kept++] = term;
+    } else {
+      same->coefficient = Dag::sum_of_constants(same->coefficient, term.coefficient);
+    }
+  }
+  terms.resize(first + kept);
+  terms.erase(std::remove_if(terms.begin() + first, terms.end(),
+                             [](const Term& term) { return term.coefficient == 0.0; }),
+              terms.end());
+}
 
 std::vector<std::uint32_t> use_counts(const Polynomials& system) {
-  std::vector<std::uint32_t> uses(system.polynomial.size(), 0);
+  std::vector<std::uint32_t> uses(system.sums.size(), 0);
   std::vector<std::uint32_t> todo;
+  todo.reserve(uses.size());
   const auto use = [&](std::uint32_t i) {
     if (uses[i]++ == 0) todo.push_back(i);
   };
@@ -182,9 +260,9 @@ std::vector<std::uint32_t> use_counts(const Polynomials& system) {
   while (!todo.empty()) {
     const std::uint32_t i = todo.back();
     todo.pop_back();
-    if (system.is_polynomial[i]) {
-      for (const Monomial& term : system.polynomial[i].terms) {
-        for (const std::uint32_t factor : term.factors) use(factor);
+    if (system.is_sum[i] != 0) {
+      for (const Term& term : system.terms_of(i)) {
+        for (const std::uint32_t factor : system.factors_of(term)) use(factor);
       }
       continue;
     }
@@ -195,34 +273,6 @@ std::vector<std::uint32_t> use_counts(const Polynomials& system) {
     if (operands > 2) use(node.c.node());
   }
   return uses;
-}
-
-void collect_terms(Polynomial& polynomial) {
-  Monomials& terms = polynomial.terms;
-  // Mostly there is nothing to collect.
-  bool distinct = true;
-  for (std::size_t a = 0; a < terms.size() && distinct; ++a) {
-    distinct = terms[a].coefficient != 0.0;
-    for (std::size_t b = 0; b < a && distinct; ++b) distinct = terms[a].factors != terms[b].factors;
-  }
-  if (distinct) return;
-  Monomials kept;
-  for (Monomial& term : terms) {
-    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Monomial& other) {
-      return other.factors == term.factors;
-    });
-    if (same == kept.end()) {
-      kept.push_back(std::move(term));
-    } else {
-      same->coefficient = Dag::sum_of_constants(same->coefficient, term.coefficient);
-    }
-  }
-  std::erase_if(kept, [](const Monomial& term) { return term.coefficient == 0.0; });
-  terms = std::move(kept);
-}
-
-Computation write_polynomials(const Polynomials& system, Association association) {
-  return Writer(system, association).run();
 }
 
 }  // namespace sinew::program

@@ -2,50 +2,32 @@
 // taken up into the sums that they are part of, whatever the order in which they were written. The
 // passes that rearrange sums work on this form; writing it back makes additions and multiplications
 // again.
+//
+// A graph of ten thousand nodes is read and written a dozen times. So the terms of all sums lie in
+// one array and the factors of all terms in another; sums that a pass makes are appended.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "sinew/program/dag/dag.h"
-#include "sinew/program/passes/small_list.h"
 
 namespace sinew::program {
 
 // coefficient * product of factors; the factors are numbers of nodes, sorted, repeated for powers.
 // Without factors it is a constant.
-using Factors = SmallList<std::uint32_t, 4>;
-
-struct Monomial {
+struct Term {
   double coefficient = 1.0;
-  Factors factors;
+  std::uint32_t first = 0, count = 0;  // in Polynomials::factors
 };
 
-using Monomials = PooledVector<Monomial>;
-
-struct Polynomial {
-  Monomials terms;
+struct Sum {
+  std::uint32_t first = 0, count = 0;  // in Polynomials::terms
   std::uint32_t origin = kNoOrigin;
 };
-
-// Node i is what node i of the graph was, either a polynomial of other nodes or the operation that
-// it was; the nodes behind those of the graph are polynomials that passes have added.
-struct Polynomials {
-  Computation graph;
-  std::vector<bool> is_polynomial;
-  std::vector<Polynomial> polynomial;  // of each node; empty where it is none, or has been taken up
-
-  // A new node for a polynomial.
-  std::uint32_t add(Polynomial polynomial);
-};
-
-Polynomials read_polynomials(Computation graph);
-
-// How often each node is used by live nodes and results; 0 for a dead one.
-std::vector<std::uint32_t> use_counts(const Polynomials& system);
-
-// Adds terms of the same factors together and drops those that cancel.
-void collect_terms(Polynomial& polynomial);
 
 // The order in which sums and products are written back.
 enum class Association {
@@ -54,6 +36,52 @@ enum class Association {
   kFused,    // the same with fused multiply-adds, in a chain where the longest path allows
 };
 
-Computation write_polynomials(const Polynomials& system, Association association);
+// Node i is what node i of the graph was, either a sum of terms or the operation that it was; the
+// nodes behind those of the graph are sums that passes have added.
+struct Polynomials {
+  Computation graph;
+  std::vector<std::uint8_t> is_sum;    // of each node
+  std::vector<Sum> sums;               // of each node; empty where it is none, or has been taken up
+  std::vector<Term> terms;             // of all sums: no two have one in common
+  std::vector<std::uint32_t> factors;  // of all terms; after reading no two have one in common
+
+  explicit Polynomials(Computation computation) : graph(std::move(computation)) {}
+
+  // Every pass begins with it. Does nothing if the graph has been read since it was written.
+  void read();
+  // Makes the graph anew. Precondition: it has been read.
+  void write(Association association);
+
+  std::span<Term> terms_of(std::uint32_t node) {
+    return {terms.data() + sums[node].first, sums[node].count};
+  }
+  std::span<const Term> terms_of(std::uint32_t node) const {
+    return {terms.data() + sums[node].first, sums[node].count};
+  }
+  std::span<const std::uint32_t> factors_of(const Term& term) const {
+    return {factors.data() + term.first, term.count};
+  }
+  // A term whose factors are new; they have to be sorted.
+  Term term(double coefficient, std::span<const std::uint32_t> of);
+  // A new node for the terms from `first` on, which are the last ones.
+  std::uint32_t add_sum(std::uint32_t first, std::uint32_t origin);
+  // Adds terms of the same factors together and drops those that cancel, in the array of terms from
+  // `first` to its end. Those before `distinct` are known to be different and not zero.
+  void collect_last_terms(std::uint32_t first, std::uint32_t distinct);
+
+ private:
+  bool is_read_ = false;
+};
+
+inline bool same_factors(const Polynomials& system, const Term& a, const Term& b) {
+  if (a.count != b.count) return false;
+  for (std::uint32_t k = 0; k < a.count; ++k) {
+    if (system.factors[a.first + k] != system.factors[b.first + k]) return false;
+  }
+  return true;
+}
+
+// How often each node is used by live nodes and results; 0 for a dead one.
+std::vector<std::uint32_t> use_counts(const Polynomials& system);
 
 }  // namespace sinew::program

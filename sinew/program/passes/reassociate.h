@@ -2,10 +2,10 @@
 // the graph is short. The number of operations stays.
 #pragma once
 
-#include "sinew/program/dag/dag.h"
+#include "sinew/program/passes/polynomials.h"
 
 namespace sinew::program {
 
-Computation reassociate(Computation computation);
+void reassociate(Polynomials& system);
 
 }  // namespace sinew::program

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "sinew/program/passes/polynomials.h"
+#include "sinew/program/passes/factor_lists.h"
 #include "sinew/program/passes/small_list.h"
 
 namespace sinew::program {
@@ -26,11 +26,6 @@ struct Pair {
   bool operator==(const Pair&) const = default;
 };
 
-std::uint64_t mixed(std::uint64_t h, std::uint64_t part) {
-  h = (h ^ part) * 0x9e3779b97f4a7c15U;  // 2^64 / golden ratio
-  return h ^ h >> 29U;
-}
-
 struct HashOfPair {
   std::size_t operator()(const Pair& pair) const {
     std::uint64_t h = mixed(pair.opposite ? 1 : 0, std::uint64_t{pair.first} << 32U | pair.second);
@@ -39,39 +34,13 @@ struct HashOfPair {
   }
 };
 
-// Numbers the lists of factors that occur.
-class FactorLists {
- public:
-  std::uint32_t number(const Factors& factors) {
-    const auto [known, fresh] =
-        numbers_.try_emplace(factors, static_cast<std::uint32_t>(lists_.size()));
-    if (fresh) lists_.push_back(&known->first);
-    return known->second;
-  }
-  const Factors& operator[](std::uint32_t number) const { return *lists_[number]; }
-
- private:
-  struct Hash {
-    std::size_t operator()(const Factors& factors) const {
-      std::uint64_t h = factors.size();
-      for (const std::uint32_t factor : factors) h = mixed(h, factor);
-      return h;
-    }
-  };
-  std::unordered_map<Factors, std::uint32_t, Hash, std::equal_to<>,
-                     Pooled<std::pair<const Factors, std::uint32_t>>>
-      numbers_;
-  std::vector<const Factors*> lists_;
-};
-
 class Sharing {
  public:
-  explicit Sharing(Polynomials& system) : system_(system) {
-    const std::vector<std::uint32_t> uses = use_counts(system);
-    sums_.reserve(4 * uses.size());
-    for (std::uint32_t i = 0; i < uses.size(); ++i) {
-      if (uses[i] > 0 && system.is_polynomial[i]) enter(i);
+  explicit Sharing(Polynomials& system) : system_(system), lists_(system) {
+    for (std::uint32_t i = 0; i < system.sums.size(); ++i) {
+      if (has_pairs(i)) lists_.count(system.sums[i]);
     }
+    for (std::uint32_t i = 0; i < system.sums.size(); ++i) enter(i);
   }
 
   // Returns whether there was one.
@@ -96,32 +65,39 @@ class Sharing {
     bool operator()(const Candidate& a, const Candidate& b) const {
       if (a.count != b.count) return a.count > b.count;
       const Pair &x = a.entry->first, &y = b.entry->first;
-      if (x.first != y.first) return (*lists)[x.first] < (*lists)[y.first];
-      if (x.second != y.second) return (*lists)[x.second] < (*lists)[y.second];
+      if (x.first != y.first) return lists->before(x.first, y.first);
+      if (x.second != y.second) return lists->before(x.second, y.second);
       return std::tie(x.first_size, x.second_size, x.opposite) <
              std::tie(y.first_size, y.second_size, y.opposite);
     }
   };
 
-  struct Term {
+  struct Numbered {
     std::uint32_t list;
     double coefficient;
   };
-  Pair pair_of(const Term& a, const Term& b) const {
-    const bool in_order = a.list != b.list && lists_[a.list] < lists_[b.list];
-    const Term& x = in_order ? a : b;
-    const Term& y = in_order ? b : a;
+  Pair pair_of(const Numbered& a, const Numbered& b) const {
+    const bool in_order = lists_.before(a.list, b.list);
+    const Numbered& x = in_order ? a : b;
+    const Numbered& y = in_order ? b : a;
     return {x.list, y.list, std::abs(x.coefficient), std::abs(y.coefficient),
             (x.coefficient < 0.0) != (y.coefficient < 0.0)};
   }
 
+  bool has_pairs(std::uint32_t i) const {
+    return system_.sums[i].count >= 2 && system_.sums[i].count <= kMaximumTerms;
+  }
+
+  // Of those that several sums might have in common.
   template <typename Change>
   void for_each_pair(std::uint32_t i, Change change) {
-    const Monomials& terms = system_.polynomial[i].terms;
-    if (terms.size() < 2 || terms.size() > kMaximumTerms) return;
-    SmallList<Term, 8> numbered;
-    for (const Monomial& term : terms)
-      numbered.push_back({lists_.number(term.factors), term.coefficient});
+    if (!has_pairs(i)) return;
+    SmallList<Numbered, 8> numbered;
+    const Sum& sum = system_.sums[i];
+    for (std::uint32_t k = sum.first; k < sum.first + sum.count; ++k) {
+      const std::uint32_t list = lists_.of_term(k);
+      if (lists_.in_several(list)) numbered.push_back({list, system_.terms[k].coefficient});
+    }
     for (std::size_t a = 0; a < numbered.size(); ++a) {
       for (std::size_t b = a + 1; b < numbered.size(); ++b)
         change(pair_of(numbered[a], numbered[b]));
@@ -161,23 +137,27 @@ class Sharing {
 
   void share(const Pair& pair) {
     const auto sums = sums_.find(pair)->second;
-    Polynomial common;
-    common.origin = system_.polynomial[sums.front()].origin;
-    common.terms = {{pair.first_size, lists_[pair.first]},
-                    {pair.opposite ? -pair.second_size : pair.second_size, lists_[pair.second]}};
-    const std::uint32_t shared = system_.add(std::move(common));
+    const auto first = static_cast<std::uint32_t>(system_.terms.size());
+    append(pair.first, pair.first_size);
+    append(pair.second, pair.opposite ? -pair.second_size : pair.second_size);
+    const std::uint32_t shared = system_.add_sum(first, system_.sums[sums.front()].origin);
+    std::uint32_t shared_list = FactorLists::kNone;
     for (const std::uint32_t i : sums) {
       leave(i);
-      Monomials& terms = system_.polynomial[i].terms;
+      const Sum sum = system_.sums[i];
+      std::uint32_t to = sum.first;
       double sign = 1.0;
-      for (const std::uint32_t list : {pair.first, pair.second}) {
-        const auto at = std::find_if(terms.begin(), terms.end(), [&](const Monomial& term) {
-          return term.factors == lists_[list];
-        });
-        if (list == pair.first) sign = at->coefficient < 0.0 ? -1.0 : 1.0;
-        terms.erase(at);
+      for (std::uint32_t from = sum.first; from < sum.first + sum.count; ++from) {
+        const std::uint32_t list = lists_.of_term(from);
+        if (list == pair.first) sign = system_.terms[from].coefficient < 0.0 ? -1.0 : 1.0;
+        if (list == pair.first || list == pair.second) continue;
+        system_.terms[to] = system_.terms[from];
+        lists_.set(to++, list);
       }
-      terms.push_back({sign, {shared}});
+      system_.terms[to] = system_.term(sign, {&shared, 1});
+      if (shared_list == FactorLists::kNone) shared_list = lists_.add(system_.terms[to]);
+      lists_.set(to, shared_list);
+      system_.sums[i].count = to + 1 - sum.first;
       enter(i);
     }
     // The pair itself is one sum now, and stays.
@@ -185,6 +165,13 @@ class Sharing {
     const auto entry = sums_.find(pair);
     no_candidate(*entry);
     sums_.erase(entry);
+  }
+
+  void append(std::uint32_t list, double coefficient) {
+    Term term = lists_[list];
+    term.coefficient = coefficient;
+    system_.terms.push_back(term);
+    lists_.set(static_cast<std::uint32_t>(system_.terms.size()) - 1, list);
   }
 
   Polynomials& system_;
@@ -195,10 +182,9 @@ class Sharing {
 
 }  // namespace
 
-Computation share_sums(Computation computation) {
-  Polynomials system = read_polynomials(std::move(computation));
-  if (!Sharing(system).run()) return std::move(system.graph);
-  return write_polynomials(system, Association::kPlain);
+void share_sums(Polynomials& system) {
+  system.read();
+  if (Sharing(system).run()) system.write(Association::kPlain);
 }
 
 }  // namespace sinew::program

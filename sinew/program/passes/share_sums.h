@@ -2,10 +2,10 @@
 // once. Value numbering sees such a pair only where it happens to have been written as a pair.
 #pragma once
 
-#include "sinew/program/dag/dag.h"
+#include "sinew/program/passes/polynomials.h"
 
 namespace sinew::program {
 
-Computation share_sums(Computation computation);
+void share_sums(Polynomials& system);
 
 }  // namespace sinew::program
