@@ -7,25 +7,25 @@
 
 namespace sinew::backend {
 
-// `value` names what a Ref, or a node's index, stands for. Empty for other operations than sum,
-// product, both at once, and quotient.
+// Appends the sum, product, both at once, or quotient; `value` gives the text that a node stands
+// for, and may write statements before this one: those of the last operand first.
 template <typename Value>
-std::string c_arithmetic(const program::Node& node, Value value) {
-  const auto plus = [&](program::Ref term) {
-    return (term.negative() ? " - " : " + ") + value(term.node());
+void append_arithmetic(std::string& text, const program::Node& node, Value value) {
+  const bool fused = node.op == program::Op::kFma;
+  const std::string* const c = fused ? &value(node.c.node()) : nullptr;
+  const std::string& b = value(node.b.node());
+  const std::string& a = value(node.a.node());
+  if (node.a.negative()) text += '-';
+  text += a;
+  const auto plus = [&](program::Ref term, const std::string& name) {
+    text += term.negative() ? " - " : " + ";
+    text += name;
   };
-  switch (node.op) {
-    case program::Op::kAdd:
-      return value(node.a) + plus(node.b);
-    case program::Op::kMultiply:
-      return value(node.a) + " * " + value(node.b);
-    case program::Op::kFma:
-      return value(node.a) + " * " + value(node.b) + plus(node.c);
-    case program::Op::kDivide:
-      return value(node.a) + " / " + value(node.b);
-    default:
-      return {};
-  }
+  if (node.op == program::Op::kAdd) return plus(node.b, b);
+  text += node.op == program::Op::kDivide ? " / " : " * ";
+  if (node.b.negative()) text += '-';
+  text += b;
+  if (fused) plus(node.c, *c);
 }
 
 }  // namespace sinew::backend

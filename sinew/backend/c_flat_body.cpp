@@ -11,6 +11,7 @@
 
 #include "sinew/backend/angle_groups.h"
 #include "sinew/backend/c_arithmetic.h"
+#include "sinew/backend/c_names.h"
 #include "sinew/backend/flat_parts.h"
 #include "sinew/backend/numbers.h"
 #include "sinew/base/error.h"
@@ -39,7 +40,8 @@ class Emitter {
         scalar_(options.scalar == Scalar::kFloat ? "float" : "double"),
         suffix_(options.scalar == Scalar::kFloat ? "f" : ""),
         type_(block_form_ ? options.name + "_lanes" : scalar_),
-        names_(dag_.size()) {
+        names_(dag_.size()),
+        constants_(dag_.size()) {
     for (const FlatPlace& place : layout.inputs) use(place.array);
     for (const FlatPlace& place : layout.results) use(place.array);
     use("in");
@@ -97,16 +99,13 @@ class Emitter {
 
   std::string number(double value) const { return scalar_number(value, options_.scalar); }
 
-  void line(const std::string& text, std::uint32_t origin = program::kNoOrigin) {
-    block_->add("  " + text, origin);
+  void line(std::string_view text, std::uint32_t origin = program::kNoOrigin) {
+    block_->add({"  ", text}, origin);
   }
-
-  // A name that no other value of the function has.
-  std::string unique(const std::string& base) {
-    std::string name = base;
-    for (int again = 2; !used_.insert(name).second; ++again)
-      name = fmt::format("{}_{}", base, again);
-    return name;
+  // TYPE NAME = VALUE;
+  void declare(std::string_view type, std::string_view name, std::string_view value,
+               std::uint32_t origin = program::kNoOrigin) {
+    block_->add({"  const ", type, " ", name, " = ", value, ";"}, origin);
   }
 
   // Keeps what the parts need of what has been computed, and calls them; their code goes to
@@ -172,12 +171,13 @@ class Emitter {
       line(fmt::format("memcpy(kept + {0} * {1}_LANES, &{2}, sizeof {2});", slot, upper_,
                        names_[node]));
     } else {
-      line(fmt::format("kept[{}] = {};", slot, names_[node]));
+      const fmt::format_int index(slot);
+      block_->add({"  kept[", {index.data(), index.size()}, "] = ", names_[node], ";"});
     }
   }
 
   void read_kept(std::uint32_t node) {
-    names_[node] = unique(fmt::format("k{}", parts_.slot[node]));
+    names_[node] = given_.unique(fmt::format("k{}", parts_.slot[node]));
     if (block_form_) {
       line(fmt::format("{0} {1}; memcpy(&{1}, kept + {2} * {3}_LANES, sizeof {1});", type_,
                        names_[node], parts_.slot[node], upper_));
@@ -186,10 +186,13 @@ class Emitter {
     }
   }
 
-  // The name of a node that has been emitted, or its number.
-  std::string value(std::uint32_t i) {
+  // The name of a node, which is read first if it has not been emitted, or its number.
+  const std::string& value(std::uint32_t i) {
     const Node& node = dag_.node(i);
-    if (node.op == Op::kConstant) return number(node.value);
+    if (node.op == Op::kConstant) {
+      if (constants_[i].empty()) constants_[i] = number(node.value);
+      return constants_[i];
+    }
     if (names_[i].empty()) {
       if (node.op == Op::kInput) {
         read_input(i, node);
@@ -202,10 +205,10 @@ class Emitter {
   std::string value(Ref ref) { return (ref.negative() ? "-" : "") + value(ref.node()); }
 
   void read_input(std::uint32_t i, const Node& node) {
-    names_[i] = unique(layout_.input_names[node.index]);
+    names_[i] = given_.unique(layout_.input_names[node.index]);
     const FlatPlace& place = layout_.inputs[node.index];
     if (!block_form_) {
-      line(fmt::format("const {} {} = {};", scalar_, names_[i], element(place)));
+      declare(scalar_, names_[i], element(place));
     } else if (std::string_view(place.array) == "held") {
       declare_zero();
       line(fmt::format("const {} {} = {} - zero;", type_, names_[i], element(place)));
@@ -218,25 +221,31 @@ class Emitter {
   void emit(std::uint32_t i) {
     const Node& node = dag_.node(i);
     if (node.op == Op::kSin || node.op == Op::kCos) return;  // the group has made it
-    const std::string expression = express(node);
-    names_[i] = unique(fmt::format("t{}", ++count_));
+    express(node);
+    names_[i] = given_.temporary();
     if (block_form_ && (node.op == Op::kSqrt || node.op == Op::kSelect)) {
       lane_by_lane(i, node);
     } else {
-      line(fmt::format("const {} {} = {};", type_, names_[i], expression), node.origin);
+      declare(type_, names_[i], expression_, node.origin);
     }
     results_of(i);
   }
 
-  std::string express(const Node& n) {
-    if (n.op == Op::kSqrt) return fmt::format("sqrt{}({})", suffix_, value(n.a));
-    if (n.op == Op::kSelect) {
+  // Writes `expression_`.
+  void express(const Node& n) {
+    expression_.clear();
+    if (n.op == Op::kSqrt) {
+      expression_ = fmt::format("sqrt{}({})", suffix_, value(n.a));
+    } else if (n.op == Op::kSelect) {
       const Node& condition = dag_.node(n.a);
       const std::string a = value(condition.a), b = value(condition.b), x = value(n.b),
                         y = value(n.c);
-      return fmt::format("{} < {} ? {} : {}", a, b, x, y);
+      expression_ = fmt::format("{} < {} ? {} : {}", a, b, x, y);
+    } else {
+      append_arithmetic(expression_, n, [this](std::uint32_t operand) -> const std::string& {
+        return value(operand);
+      });
     }
-    return c_arithmetic(n, [this](auto operand) { return value(operand); });
   }
 
   // What vectors have no portable operator for.
@@ -285,7 +294,7 @@ class Emitter {
     const std::size_t n = group.angles.size();
     const std::size_t padded = (n + kWidest - 1) / kWidest * kWidest;
     const std::string tag = result_.angles == 0 ? "" : fmt::format("_{}", result_.angles);
-    for (const char* array : {"angle", "sine", "cosine"}) used_.insert(array + tag);
+    for (const char* array : {"angle", "sine", "cosine"}) given_.take(array + tag);
     const std::string lanes = block_form_ ? fmt::format("{} * {}_LANES", n, upper_) : "";
     line(fmt::format("{2}_ALIGNED {3} sine{0}[{1}], cosine{0}[{1}];", tag,
                      block_form_ ? lanes : std::to_string(padded), upper_, scalar_));
@@ -360,8 +369,8 @@ class Emitter {
       const std::string angle = value(group.angles[k]);
       const std::uint32_t sine = group.sines[k], cosine = group.cosines[k];
       if (sine != AngleGroup::kNone && cosine != AngleGroup::kNone) {
-        names_[sine] = unique("sin_" + angle);
-        names_[cosine] = unique("cos_" + angle);
+        names_[sine] = given_.unique("sin_" + angle);
+        names_[cosine] = given_.unique("cos_" + angle);
         line(fmt::format("{0} {1}, {2}; sincos{3}({4}, &{1}, &{2});", scalar_, names_[sine],
                          names_[cosine], suffix_, angle),
              dag_.node(sine).origin);
@@ -370,7 +379,7 @@ class Emitter {
       const bool is_sine = sine != AngleGroup::kNone;
       const std::uint32_t node = is_sine ? sine : cosine;
       const char* function = is_sine ? "sin" : "cos";
-      names_[node] = unique(fmt::format("{}_{}", function, angle));
+      names_[node] = given_.unique(fmt::format("{}_{}", function, angle));
       line(fmt::format("const {} {} = {}{}({});", scalar_, names_[node], function, suffix_, angle),
            dag_.node(node).origin);
     }
@@ -379,7 +388,7 @@ class Emitter {
 
   void take(std::uint32_t node, const std::string& name, const std::string& array, std::size_t k) {
     if (node == AngleGroup::kNone) return;
-    names_[node] = unique(name);
+    names_[node] = given_.unique(name);
     const std::uint32_t origin = dag_.node(node).origin;
     if (block_form_) {
       line(fmt::format("{0} {1}; memcpy(&{1}, {2} + {3} * {4}_LANES, sizeof {1});", type_,
@@ -449,7 +458,8 @@ class Emitter {
     const FlatPlace& place = layout_.results[k];
     const std::uint32_t origin = dag_.node(result).origin;
     if (!block_form_) {
-      line(fmt::format("{} = {};", element(place), value(result)), origin);
+      const std::string to = element(place);
+      block_->add({"  ", to, " = ", value(result), ";"}, origin);
       return;
     }
     const std::string number = dag_.is_constant(result) ? value(result) + " + zero" : value(result);
@@ -470,14 +480,15 @@ class Emitter {
   std::vector<std::string> arrays_;
   std::unordered_set<std::string> touched_;             // arrays, and n, that the code names
   std::vector<std::string> names_;                      // of nodes; empty: not emitted yet
+  std::vector<std::string> constants_;                  // their texts, once they are used
+  std::string expression_;                              // of the statement that is being written
   std::vector<std::vector<std::uint32_t>> results_of_;  // of a node: written with it
   std::vector<std::uint32_t> later_;                    // results that are written at the end
-  std::uint32_t count_ = 0;
   bool zero_ = false;
   FlatParts parts_;
-  std::unordered_set<std::string> used_ = {
-      "in",   "out",    "state", "held", "n", "kept", "angle",   "sine",    "cosine",  "lane",
-      "zero", "result", "y",     "a",    "b", "x",    "a_lanes", "b_lanes", "x_lanes", "y_lanes"};
+  CNames given_ = {"in",   "out",    "state",   "held",    "n",       "kept",   "angle",
+                   "sine", "cosine", "lane",    "zero",    "result",  "y",      "a",
+                   "b",    "x",      "a_lanes", "b_lanes", "x_lanes", "y_lanes"};
   FlatBody result_;
   CodeBlock* block_ = &result_.code;
 };

@@ -6,9 +6,9 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <unordered_set>
 
 #include "sinew/backend/c_arithmetic.h"
+#include "sinew/backend/c_names.h"
 #include "sinew/backend/numbers.h"
 #include "sinew/program/dag/evaluate.h"
 
@@ -52,6 +52,7 @@ class Emitter {
       live_.push_back(program::live_nodes(region.computation));
       const unsigned width = width_of(region.lanes);
       if (width > 1) body_.widths.push_back(width);
+      types_.push_back(region.lanes > 1 ? fmt::format("{}_limbs{}", options.name, width) : scalar_);
     }
     std::sort(body_.widths.begin(), body_.widths.end());
     body_.widths.erase(std::unique(body_.widths.begin(), body_.widths.end()), body_.widths.end());
@@ -130,21 +131,11 @@ class Emitter {
   const LimbRegion& region() const { return program_.regions[at_]; }
   const program::Dag& dag() const { return region().computation.dag; }
   bool in_lanes() const { return region().lanes > 1; }
-  std::string type() const {
-    return in_lanes() ? fmt::format("{}_limbs{}", options_.name, width_of(region().lanes))
-                      : scalar_;
-  }
+  const std::string& type() const { return types_[at_]; }
 
-  void line(const std::string& text, std::uint32_t origin = program::kNoOrigin) {
-    body_.code.add("  " + text, origin);
+  void line(std::string_view text, std::uint32_t origin = program::kNoOrigin) {
+    body_.code.add({"  ", text}, origin);
   }
-  std::string unique(const std::string& base) {
-    std::string name = base;
-    for (int again = 2; !used_.insert(name).second; ++again)
-      name = fmt::format("{}_{}", base, again);
-    return name;
-  }
-  std::string temporary() { return unique(fmt::format("t{}", ++count_)); }
 
   std::string number(double value) const { return scalar_number(value, options_.scalar); }
 
@@ -188,7 +179,7 @@ class Emitter {
   std::string zero() {
     std::string& name = zeros_[width_of(region().lanes)];
     if (name.empty()) {
-      name = unique("zero");
+      name = given_.unique("zero");
       line(fmt::format("const {} {} = {{ 0 }};", type(), name));
     }
     return name;
@@ -199,8 +190,8 @@ class Emitter {
     const Sources& sources = region().inputs[node.index];
     const LimbSource& first = sources[0];
     const std::string name = first.kind == LimbSource::Kind::kCaller
-                                 ? unique(layout_.input_names[first.index])
-                                 : temporary();
+                                 ? given_.unique(layout_.input_names[first.index])
+                                 : given_.temporary();
     if (!in_lanes()) {
       line(fmt::format("const {} {} = {};", scalar_, name, text(first)));
       return name;
@@ -239,11 +230,16 @@ class Emitter {
     return (ref.negative() != first.negative ? "-" : "") + names_[first.region][ref.node()];
   }
 
-  std::string value(std::uint32_t i) {
+  const std::string& value(std::uint32_t i) {
     const Node& node = dag().node(i);
-    if (node.op == Op::kConstant) return number(node.value);
-    if (names_[at_][i].empty()) compute(i, node);
-    return names_[at_][i];
+    std::string& name = names_[at_][i];
+    if (!name.empty()) return name;
+    if (node.op == Op::kConstant) {
+      name = number(node.value);
+    } else {
+      compute(i, node);
+    }
+    return name;
   }
   std::string value(Ref ref) { return (ref.negative() ? "-" : "") + value(ref.node()); }
 
@@ -257,8 +253,9 @@ class Emitter {
       return;
     }
     const std::string expression = express(node);
-    names_[at_][i] = temporary();
-    line(fmt::format("const {} {} = {};", type(), names_[at_][i], expression), node.origin);
+    std::string& name = names_[at_][i];
+    name = given_.temporary();
+    body_.code.add({"  const ", type(), " ", name, " = ", expression, ";"}, node.origin);
   }
 
   std::string express(const Node& n) {
@@ -273,7 +270,10 @@ class Emitter {
                             return fmt::format("{} < {} ? {} : {}", x[0], x[1], x[2], x[3]);
                           });
     }
-    return c_arithmetic(n, [this](auto operand) { return value(operand); });
+    std::string text;
+    append_arithmetic(
+        text, n, [this](std::uint32_t operand) -> const std::string& { return value(operand); });
+    return text;
   }
 
   // What vectors have no portable operator for.
@@ -299,7 +299,7 @@ class Emitter {
       const Node& node = dag().node(i);
       if (!live_[at_][i] || !is_trigonometric(node) || node.a.node() != angle) continue;
       const std::string& array = node.op == Op::kSin ? sines : cosines;
-      const std::string name = unique(node.op == Op::kSin ? "sine_of" : "cosine_of");
+      const std::string name = given_.unique(node.op == Op::kSin ? "sine_of" : "cosine_of");
       names_[at_][i] = name;
       if (in_lanes()) {
         line(fmt::format("{0} {1}; memcpy(&{1}, {2} + {3}, sizeof {1});", type(), name, array,
@@ -384,14 +384,15 @@ class Emitter {
   const FlatLayout& layout_;
   const FlatOptions& options_;
   std::string upper_, scalar_, suffix_;
-  std::vector<std::vector<std::string>> names_;  // [region][node]
+  std::vector<std::string> types_;               // of each region's values
+  std::vector<std::vector<std::string>> names_;  // [region][node]: or the text of a constant
   std::vector<std::vector<bool>> live_;
   std::vector<std::vector<std::vector<std::uint32_t>>> results_of_;  // [region][node]
   std::vector<std::uint32_t> later_;  // results that no region computes
   std::size_t at_ = 0;                // the region
-  std::size_t count_ = 0, groups_ = 0;
+  std::size_t groups_ = 0;
   std::map<unsigned, std::string> zeros_;  // by width: a vector of zeros
-  std::unordered_set<std::string> used_ = {"in", "out", "angle", "sine", "cosine"};
+  CNames given_ = {"in", "out", "angle", "sine", "cosine"};
   LimbBody body_;
 };
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,7 +30,12 @@ struct CodeBlock {
   std::vector<LineOrigin> origins;
   std::size_t lines = 0;
 
-  void add(const std::string& line, std::uint32_t closure = program::kNoOrigin);
+  void add(std::string_view line, std::uint32_t closure = program::kNoOrigin) {
+    add({line}, closure);
+  }
+  // A line of several pieces.
+  void add(std::initializer_list<std::string_view> pieces,
+           std::uint32_t closure = program::kNoOrigin);
 };
 
 struct RenderedSource {

@@ -103,8 +103,8 @@ std::optional<program::LimbProgram> limbs_of(const program::ScalarProgram& scala
 
 }  // namespace
 
-void CodeBlock::add(const std::string& line, std::uint32_t closure) {
-  text += line;
+void CodeBlock::add(std::initializer_list<std::string_view> pieces, std::uint32_t closure) {
+  for (const std::string_view piece : pieces) text += piece;
   text += '\n';
   ++lines;
   if (closure != program::kNoOrigin) origins.push_back({lines, closure});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <unordered_set>
 
 namespace sinew::backend {
 namespace {
@@ -74,7 +75,9 @@ bool is_c_function_name(std::string_view text) {
   if (!std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || is_digit(c); })) {
     return false;
   }
-  return std::find(std::begin(kReserved), std::end(kReserved), text) == std::end(kReserved);
+  static const std::unordered_set<std::string_view> reserved(std::begin(kReserved),
+                                                             std::end(kReserved));
+  return !reserved.contains(text);
 }
 
 std::string c_comment(std::string_view text) {
