@@ -135,27 +135,8 @@ TEST(JointTypes, OnAFloatingBaseAreThoseBehindAFloatingJoint) {
   RandomJoints options;
   options.joints = 9;
   options.seed = 220;
-  TestRobot robot = random_joints(options);
-  // A first joint that floats, in the place of whatever was there.
-  TestJoint base;
-  base.name = "base";
-  base.kind = "floating";
-  base.velocities = 6;
-  base.positions = 7;
-  TestRobot behind;
-  behind.links.push_back({});
-  behind.links.insert(behind.links.end(), robot.links.begin(), robot.links.end());
-  behind.joints.push_back(base);
-  for (TestJoint joint : robot.joints) {
-    ++joint.parent;
-    if (joint.leader >= 0) ++joint.leader;
-    joint.velocity += 6;
-    joint.position += 7;
-    for (TestMotion& motion : joint.motions) motion.coordinate += 6;
-    behind.joints.push_back(joint);
-  }
-  behind.velocities = robot.velocities + 6;
-  behind.positions = robot.positions + 7;
+  const TestRobot robot = random_joints(options);
+  const TestRobot behind = behind_a_floating_joint(robot);
   const std::string free = turtle(robot), fixed = turtle(behind);
   for (const char* name : {"rnea", "aba", "crba", "gravity", "bias", "forward_cholesky"}) {
     SCOPED_TRACE(name);
@@ -187,18 +168,9 @@ TEST(JointTypes, AreTheSameFromEveryBackEnd) {
     backend::Interpreter interpreter(solver.program());
     VectorXd expected(interpreter.out_size()), out(interpreter.out_size());
     interpreter.evaluate(in.data(), expected.data());
-    for (const backend::Style style : {backend::Style::kFlat, backend::Style::kReadable}) {
-      backend::COptions c;
-      c.name = "solver";
-      c.style = style;
-      const backend::LoadedCode code = backend::compile_and_load(
-          backend::generate_c(solver.program(), c),
-          {"cc",
-           {"-O1", "-Wall", "-Wextra", "-Werror", "-std=c11", "-I" SINEW_SOURCE_DIR "/sinew/math"},
-           {SINEW_MATH_LIBRARY}});
-      code.function()(in.data(), out.data());
-      EXPECT_LT(difference(out, expected), 1e-9) << (style == backend::Style::kFlat);
-    }
+    for (const backend::Style style : {backend::Style::kFlat, backend::Style::kReadable})
+      EXPECT_LT(difference(evaluated_by_c(solver.program(), style, in), expected), 1e-9)
+          << (style == backend::Style::kFlat);
     if (!backend::jit_available()) continue;
     const auto jit = backend::jit_compile(program::scalar_program(solver.program()).computation,
                                           {backend::JitLevel::kFast, ""});

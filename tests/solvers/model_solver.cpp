@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "sinew/backend/compile.h"
 #include "sinew/program/interface.h"
 
 namespace sinew::test {
@@ -89,6 +90,21 @@ std::vector<Eigen::Index> ModelSolver::order(const TestRobot& robot) const {
         for (int k = 0; k < j.velocities; ++k) list.push_back(j.velocity + k);
   }
   return list;
+}
+
+VectorXd evaluated_by_c(const program::Program& program, backend::Style style,
+                        const std::vector<double>& in) {
+  backend::COptions c;
+  c.name = "solver";
+  c.style = style;
+  const backend::LoadedCode code = backend::compile_and_load(
+      backend::generate_c(program, c),
+      {"cc",
+       {"-O1", "-Wall", "-Wextra", "-Werror", "-std=c11", "-I" SINEW_SOURCE_DIR "/sinew/math"},
+       {SINEW_MATH_LIBRARY}});
+  VectorXd out(program::interface_of(program).out_size);
+  code.function()(in.data(), out.data());
+  return out;
 }
 
 VectorXd joined(const TestRobot& robot, const std::map<std::string, VectorXd>& results,

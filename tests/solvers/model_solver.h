@@ -10,6 +10,7 @@
 #include "dense_reference.h"
 #include "evaluator.h"
 #include "pipeline.h"
+#include "sinew/backend/c_target.h"
 
 namespace sinew::test {
 
@@ -43,6 +44,10 @@ class ModelSolver {
   std::unique_ptr<cli::Evaluator> evaluator_;
   std::map<std::string, VectorXd> others_;
 };
+
+// What generated C code of a program, compiled, makes of its inputs.
+VectorXd evaluated_by_c(const program::Program& program, backend::Style style,
+                        const std::vector<double>& in);
 
 // force.j0, force.j1, … one after the other.
 VectorXd joined(const TestRobot& robot, const std::map<std::string, VectorXd>& results,

@@ -289,6 +289,29 @@ constexpr std::string_view kPrefixes = R"(
 
 TestRobot random_joints(const RandomJoints& options) { return Generator(options).robot(); }
 
+TestRobot behind_a_floating_joint(const TestRobot& robot) {
+  TestRobot floating;
+  floating.links.push_back({});
+  floating.links.insert(floating.links.end(), robot.links.begin(), robot.links.end());
+  TestJoint base;
+  base.name = "base";
+  base.kind = "floating";
+  base.velocities = 6;
+  base.positions = 7;
+  floating.joints.push_back(base);
+  for (TestJoint joint : robot.joints) {
+    ++joint.parent;
+    if (joint.leader >= 0) ++joint.leader;
+    joint.velocity += 6;
+    joint.position += 7;
+    for (TestMotion& motion : joint.motions) motion.coordinate += 6;
+    floating.joints.push_back(joint);
+  }
+  floating.velocities = robot.velocities + 6;
+  floating.positions = robot.positions + 7;
+  return floating;
+}
+
 std::string turtle(const TestRobot& robot) {
   std::string text(kPrefixes);
   for (std::size_t k = 0; k < robot.links.size(); ++k) text += link(robot, k);

@@ -53,6 +53,9 @@ struct RandomJoints {
 
 TestRobot random_joints(const RandomJoints& options);
 
+// The same on a floating base: a first joint, "base", floats between a new link 0 and the old one.
+TestRobot behind_a_floating_joint(const TestRobot& robot);
+
 // The robot as a model; link K is linkK, its frame linkK-root.
 std::string turtle(const TestRobot& robot);
 
