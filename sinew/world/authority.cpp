@@ -92,6 +92,7 @@ Rights Authority::rights() const {
 void Authority::change(Rights rights) {
   const std::lock_guard lock(mutex_);
   rights_ = std::move(rights);
+  changes_.fetch_add(1, std::memory_order_release);
   for (const Permitted& each : permitted_) {
     const auto permit = each.permit.lock();
     if (!permit) continue;

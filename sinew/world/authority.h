@@ -3,6 +3,8 @@
 // again when they change. Any thread, none of them real-time.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -42,6 +44,7 @@ class Authority {
 
   Rights rights() const;
   const std::shared_ptr<Audit>& audit() const { return audit_; }
+  std::uint64_t changes() const { return changes_.load(std::memory_order_acquire); }
   // What was permitted and is not any more answers Status::kForbidden from now on; what was taken
   // back and is allowed again answers as before.
   void change(Rights rights);
@@ -60,6 +63,7 @@ class Authority {
   Rights rights_;
   const std::shared_ptr<Audit> audit_;
   std::vector<Permitted> permitted_;
+  std::atomic<std::uint64_t> changes_ = 0;  // of the rights
 };
 
 }  // namespace sinew::world

@@ -18,7 +18,7 @@
 //   K w:measures "height-gap" ; w:minimum n ; w:maximum n ; w:maximum-of "reach" ; qudt:unit U
 //   O w:declares N ;  N w:property "reach" ; w:number n ; qudt:unit U
 //
-// A mesh counts as the box along its own axes that holds its vertices (mesh_file.h); the unit is
+// A mesh is its triangles, and where they are closed the solid within (mesh_file.h); the unit is
 // that of the file's numbers after scaling, and the scale is 1 where there is none.
 //
 // The shape's own axes are those of the frame that sees it, moved by its position and quaternion
@@ -45,7 +45,7 @@ struct DeclaredShape {
   std::string iri;  // empty: a blank node
   FrameId seen_by;
   Shape shape;  // placed in that frame
-  // Of bounds that were taken from a mesh: its file as the model names it, and its scale.
+  // Of a mesh: its file as the model names it, and its scale.
   std::string mesh_file = {};
   Vector3 mesh_scale = {1, 1, 1};
 };

@@ -2,7 +2,8 @@
 
 #include <assimp/scene.h>
 
-#include <cmath>
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
@@ -12,37 +13,49 @@
 namespace sinew::world {
 namespace {
 
-// Deeper scenes of nodes are no mesh of a robot.
-constexpr int kMaximumMeshDepth = 64;
+struct MeshCollector {
+  const aiScene& scene;
+  const Vector3& scale;
+  const MeshLimits& limits;
+  const std::string& path;
+  std::vector<Vector3> vertices = {};
+  std::vector<Corners> triangles = {};
 
-void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above,
-             const Vector3& scale, int depth, const std::string& path,
-             std::vector<Vector3>& vertices) {
-  if (depth > kMaximumMeshDepth) {
-    refuse(path, "nodes within nodes, " + std::to_string(kMaximumMeshDepth) + " deep",
-           "a flatter mesh");
-  }
-  const aiMatrix4x4 at = above * node.mTransformation;
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-    const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
-    if (vertices.size() + mesh.mNumVertices > kMaximumMeshVertices) {
-      refuse(path, "more than " + std::to_string(kMaximumMeshVertices) + " vertices",
+  void collect(const aiMesh& mesh, const aiMatrix4x4& at) {
+    if (mesh.mNumVertices > limits.vertices - vertices.size()) {
+      refuse(path, "more than " + std::to_string(limits.vertices) + " vertices", "a coarser mesh");
+    }
+    if (mesh.mNumFaces > limits.triangles - triangles.size()) {
+      refuse(path, "more than " + std::to_string(limits.triangles) + " triangles",
              "a coarser mesh");
     }
+    const auto first = static_cast<std::uint32_t>(vertices.size());
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
       const aiVector3D p = at * mesh.mVertices[v];
-      const Vector3 seen = {scale.x * static_cast<double>(p.x), scale.y * static_cast<double>(p.y),
-                            scale.z * static_cast<double>(p.z)};
-      if (!std::isfinite(seen.x) || !std::isfinite(seen.y) || !std::isfinite(seen.z)) {
-        refuse(path, "a vertex that is not finite", "finite numbers");
-      }
-      vertices.push_back(seen);
+      vertices.push_back({scale.x * static_cast<double>(p.x), scale.y * static_cast<double>(p.y),
+                          scale.z * static_cast<double>(p.z)});
+    }
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices == 0) continue;
+      const auto corner = [&](unsigned k) {  // a line's last corner is there twice
+        return first + face.mIndices[std::min(k, face.mNumIndices - 1)];
+      };
+      triangles.push_back({corner(0), corner(1), corner(2)});
     }
   }
-  for (unsigned i = 0; i < node.mNumChildren; ++i) {
-    collect(scene, *node.mChildren[i], at, scale, depth + 1, path, vertices);
+  void collect(const aiNode& node, const aiMatrix4x4& above, std::size_t depth) {
+    if (depth > limits.depth) {
+      refuse(path, "nodes within nodes, more than " + std::to_string(limits.depth) + " deep",
+             "a flatter mesh");
+    }
+    const aiMatrix4x4 at = above * node.mTransformation;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) collect(*scene.mMeshes[node.mMeshes[i]], at);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) {
+      collect(*node.mChildren[i], at, depth + 1);
+    }
   }
-}
+};
 
 }  // namespace
 
@@ -77,19 +90,23 @@ std::string resolve_mesh(const std::string& name, const MeshFiles& files) {
   return (std::filesystem::path(files.directory) / path).string();
 }
 
-std::vector<Vector3> load_mesh(const std::string& path, const Vector3& scale) {
+Mesh load_mesh(const std::string& path, const Vector3& scale, const MeshLimits& limits) {
   std::error_code fault;
   const auto size = std::filesystem::file_size(path, fault);
   if (fault) refuse(path, "the mesh is not read: " + fault.message(), "a file that there is");
-  if (size > kMaximumMeshBytes) {
-    refuse(path, std::to_string(size) + " bytes", "at most " + std::to_string(kMaximumMeshBytes));
+  if (size > limits.bytes) {
+    refuse(path, std::to_string(size) + " bytes", "at most " + std::to_string(limits.bytes));
   }
   const std::shared_ptr<const aiScene> scene = import_mesh(path);
   if (!scene->mRootNode) refuse(path, "is a mesh without nodes", "STL, OBJ or DAE");
-  std::vector<Vector3> vertices;
-  collect(*scene, *scene->mRootNode, aiMatrix4x4(), scale, 0, path, vertices);
-  if (vertices.empty()) refuse(path, "a mesh without a vertex", "one with triangles");
-  return vertices;
+  MeshCollector collector{*scene, scale, limits, path};
+  collector.collect(*scene->mRootNode, aiMatrix4x4(), 0);
+  try {
+    return {make_mesh(collector.vertices, collector.triangles)};
+  } catch (const Error& error) {
+    const Problem& problem = error.problems().front();
+    refuse(path, problem.what, problem.remedy);
+  }
 }
 
 }  // namespace sinew::world

@@ -2,6 +2,7 @@
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
+#include <assimp/postprocess.h>
 #include <dlfcn.h>
 
 #include "sinew/world/refuse.h"
@@ -54,8 +55,9 @@ std::shared_ptr<const aiScene> import_mesh(const std::string& path) {
   }
   aiPropertyStore* const settings = assimp.create_settings();
   assimp.set(settings, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
-  // Points and lines are no surface; everything else that it can do to a mesh is not asked for.
-  const aiScene* const scene = assimp.import(path.c_str(), 0, nullptr, settings);
+  // Everything else that it can do to a mesh is not asked for.
+  const aiScene* const scene =
+      assimp.import(path.c_str(), aiProcess_Triangulate, nullptr, settings);
   assimp.release_settings(settings);
   if (scene == nullptr) {
     refuse(path, "is no mesh: " + std::string(assimp.fault()), "STL, OBJ or DAE");

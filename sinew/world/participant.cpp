@@ -9,7 +9,7 @@ Participant::Participant(World& world, std::shared_ptr<World> own,
     : world_(&world),
       own_(std::move(own)),
       authority_(std::move(authority)),
-      reader_(world, who, authority_),
+      reader_(world, authority_, who),
       actor_(world, authority_, std::move(who)) {}
 
 Status Participant::write(MeasurementId measurement, Stamp stamp, const Pose& pose) {
@@ -44,8 +44,10 @@ ActionOutcome Participant::perform(const Actions& actions, const std::string& ac
 Participant::Prediction Participant::predict(const Actions& actions, const std::string& action,
                                              std::map<std::string, std::string> arguments,
                                              Stamp now) const {
+  World readable = world_->clone();
+  reader_.hide_what_follows(readable.graph());
   PredictedAction predicted =
-      actions.predict(*world_, {action, std::move(arguments), who(), now},
+      actions.predict(readable, {action, std::move(arguments), who(), now},
                       {.rights = nullptr, .audit = authority_->audit(), .history = nullptr});
   std::map<std::string, bool> hidden;  // graphs, as N-Triples
   const auto is_hidden = [&](const FactText& fact) {

@@ -46,7 +46,8 @@ class Participant {
                         FactHistory* history = nullptr);
   struct Prediction;
   // What it would lead to, for the same participant to look at. It needs no right to ask. Why an
-  // action is refused is said in its author's words, of whatever its preconditions look at.
+  // action is refused is said in its author's words, of whatever its preconditions look at; facts
+  // that follow from measurements that it may not read are not there to be looked at.
   Prediction predict(const Actions& actions, const std::string& action,
                      std::map<std::string, std::string> arguments, Stamp now) const;
 

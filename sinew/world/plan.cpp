@@ -294,6 +294,15 @@ Candidate candidate_of(const MeasurementRecord& record, MeasurementId measuremen
   return candidate;
 }
 
+std::vector<MeasurementId> measurements_of(const Plan& plan) {
+  std::vector<MeasurementId> found;
+  for (const SymbolicStep& step : plan.symbolic) found.push_back(step.measurement_id);
+  for (const Candidate& candidate : plan.candidates) found.push_back(candidate.measurement);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
 std::shared_ptr<const Plan> make_plan(const State& state, const Names& names, const AsOf& as_of,
                                       const PoseQuery& query, bool motion,
                                       std::uint64_t structure_version) {

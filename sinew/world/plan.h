@@ -60,6 +60,9 @@ struct Plan {
   std::vector<std::shared_ptr<const void>> keep;  // cells and models
 };
 
+// All that it may read, constants too; each once.
+std::vector<MeasurementId> measurements_of(const Plan& plan);
+
 // Where cells of other owners are seen from.
 using AsOf = std::function<Epoch(std::uint64_t owner)>;
 

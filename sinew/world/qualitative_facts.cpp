@@ -1,6 +1,7 @@
 #include "sinew/world/qualitative_facts.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 
 #include "sinew/vocab/standard.h"
@@ -32,7 +33,8 @@ struct FactWriter {
   graph::Id w(std::string_view term) {
     return store.terms().iri(std::string(kWorldNamespace) + std::string(term));
   }
-  void write(const Judgement& judgement) {
+  void write(const Judgement& judgement, const World& world,
+             const std::vector<MeasurementId>& read) {
     graph::Terms& terms = store.terms();
     const graph::Id first = terms.iri(judgement.first), second = terms.iri(judgement.second);
     const graph::Id fact = terms.fresh_blank();
@@ -46,6 +48,9 @@ struct FactWriter {
       transaction.add({fact, w("third"), terms.iri(judgement.third), graph});
     }
     transaction.add({fact, w("because"), terms.literal(explain(judgement)), graph});
+    for (const MeasurementId each : read) {
+      transaction.add({fact, w("derived-from"), terms.iri(world.name(each)), graph});
+    }
   }
 };
 
@@ -86,7 +91,10 @@ StatedFacts state_facts(const Relations& relations, const Space& space, graph::S
                                                        .third = third,
                                                        .viewer = viewer});
           if (!judgement.holds) continue;
-          writer.write(judgement);
+          const BodyId of[] = {first, second, third};
+          const FrameId looks = rule.axes == Axes::kViewer ? viewer : FrameId{};
+          writer.write(judgement, space.world(),
+                       space.read_for(std::span(of, rule.ternary ? 3 : 2), looks));
           ++result.facts;
         }
       }

@@ -3,7 +3,10 @@
 //
 //   x:cup w:on x:table                        each rule's name becomes a property
 //   F a w:RelationFact ; w:called "on" ; w:first x:cup ; w:second x:table ; w:third … ;
-//     w:because "x:cup on x:table: true, along the axes of …"
+//     w:because "x:cup on x:table: true, along the axes of …" ;
+//     w:derived-from M …                      measurements that the places were read from
+//
+// Whoever may not read one of these gets neither the fact nor the property (reader.h).
 //
 // They lie in a graph of their own, kQualitativeGraph, which is made anew each time, as of the
 // space's last update.

@@ -132,8 +132,7 @@ struct Reading {
     const auto scale = mesh_scale(node);
     if (!file || !scale) return std::nullopt;
     try {
-      return world::mesh_bounds(
-          load_mesh(resolve_mesh(numbers.text(*file), meshes), unit * *scale));
+      return load_mesh(resolve_mesh(numbers.text(*file), meshes), unit * *scale);
     } catch (const Error& error) {
       for (const Problem& problem : error.problems()) {
         reader.error(node, numbers.store.terms().iri(vocab::shape::file),

@@ -1,13 +1,17 @@
 #include "sinew/world/reader.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <tuple>
 #include <unordered_set>
 #include <utility>
 
 #include "sinew/world/fact_history.h"
 #include "sinew/world/impl.h"
+#include "sinew/world/plan.h"
 #include "sinew/world/situation.h"
+#include "sinew/world/situation_rules.h"
 #include "sinew/world/symbols.h"
 
 namespace sinew::world {
@@ -16,11 +20,8 @@ namespace {
 // All measurements that a plan may read.
 std::vector<WantedReading> readings_of(const WorldImpl& world, const Plan& plan) {
   const State state = world.published();
-  std::set<MeasurementId> found;
-  for (const SymbolicStep& step : plan.symbolic) found.insert(step.measurement_id);
-  for (const Candidate& candidate : plan.candidates) found.insert(candidate.measurement);
   std::vector<WantedReading> wanted;
-  for (const MeasurementId measurement : found) {
+  for (const MeasurementId measurement : measurements_of(plan)) {
     const MeasurementRecord* const record = state.measurements.find(measurement.index);
     // One that was removed since cannot be read with the next plan.
     if (!record || !record->alive) continue;
@@ -32,10 +33,10 @@ std::vector<WantedReading> readings_of(const WorldImpl& world, const Plan& plan)
 }  // namespace
 
 Reader::Reader(const World& world, Rights rights, std::string who, std::shared_ptr<Audit> audit)
-    : Reader(world, std::move(who),
-             std::make_shared<Authority>(std::move(rights), std::move(audit))) {}
+    : Reader(world, std::make_shared<Authority>(std::move(rights), std::move(audit)),
+             std::move(who)) {}
 
-Reader::Reader(const World& world, std::string who, std::shared_ptr<Authority> authority)
+Reader::Reader(const World& world, std::shared_ptr<Authority> authority, std::string who)
     : world_(&world), who_(std::move(who)), authority_(std::move(authority)) {
   // The prepared query keeps the world alive, and has this guard: no circle.
   guard_ = std::make_shared<const PlanGuard>(
@@ -160,21 +161,35 @@ TriggerId Reader::listen(Triggers& triggers, JudgedTrigger trigger,
 
 // ---- the graph ----
 
-JudgedFacts Reader::judged(const graph::View& facts) const {
+struct Reader::Hidden {
+  std::unordered_set<std::uint32_t> terms;  // with all that is said of them
+  // Graph, first, property and second of what follows from measurements.
+  std::set<std::tuple<graph::Id, graph::Id, graph::Id, graph::Id>> facts;
+  std::vector<std::string> names;  // IRIs of the measurements
+
+  bool has(const graph::Quad& quad) const {
+    return terms.contains(quad.subject.value) || terms.contains(quad.object.value) ||
+           facts.contains({quad.graph, quad.subject, quad.predicate, quad.object});
+  }
+};
+
+Reader::Hidden Reader::hidden(const graph::View& facts) const {
   const graph::Terms& terms = facts.terms();
-  JudgedFacts result;
-  std::unordered_set<std::uint32_t> hidden;  // terms
+  Hidden result;
   const State state = world_->state();
   const Names& names = world_->impl_->family->names;
+  std::unordered_set<std::string_view> readable;
   for (Index at = 0; at < state.measurements.size(); ++at) {
     const MeasurementRecord& record = state.measurements[at];
     if (!record.alive) continue;
     const std::string& name = names.text(record.name);
-    if (!authority_->reason_against_reading(who_, {MeasurementId{at}, name, record.model}))
+    if (!authority_->reason_against_reading(who_, {MeasurementId{at}, name, record.model})) {
+      readable.insert(name);
       continue;
-    result.left_out.push_back(name);
+    }
+    result.names.push_back(name);
     const auto hide = [&](std::string_view iri) {
-      if (const graph::Id term = terms.find_iri(iri)) hidden.insert(term.value);
+      if (const graph::Id term = terms.find_iri(iri)) result.terms.insert(term.value);
     };
     hide(name);
     hide(name + "/data");
@@ -182,20 +197,72 @@ JudgedFacts Reader::judged(const graph::View& facts) const {
       hide(record.blocks->blocks[i].name);
     }
   }
+  // Of a measurement that is none any more, nobody knows who might read it.
+  const auto w = [&](std::string_view term) {
+    return terms.find_iri(std::string(kWorldNamespace) + std::string(term));
+  };
+  const graph::Id derived_from = w("derived-from"), called = w("called");
+  if (!derived_from) return result;
+  const auto stated = [&](const graph::Quad& of, graph::Id property) {  // in the same graph
+    graph::Id found;
+    facts.match_in(of.subject, property, {}, of.graph, [&](const graph::Quad& quad) {
+      found = quad.object;
+      return true;
+    });
+    return found;
+  };
+  std::vector<graph::Quad> withheld;
+  const auto withhold = [&](const graph::Quad& quad) {
+    if (!readable.contains(terms.text(quad.object))) withheld.push_back(quad);
+    return true;
+  };
+  facts.match_named({}, derived_from, {}, withhold);
+  facts.match_in({}, derived_from, {}, {}, withhold);
+  for (const graph::Quad& quad : withheld) {
+    if (!result.terms.insert(quad.subject.value).second) continue;
+    const graph::Id first = stated(quad, w("first")), second = stated(quad, w("second"));
+    const graph::Id name = stated(quad, called);
+    if (!first || !second || !name) continue;
+    result.facts.insert({quad.graph, first, w(terms.text(name)), second});
+  }
+  return result;
+}
+
+JudgedFacts Reader::judged(const graph::View& facts) const {
+  const graph::Terms& terms = facts.terms();
+  const Hidden hidden = this->hidden(facts);
+  JudgedFacts result;
+  result.left_out = hidden.names;
   std::map<graph::Id, bool> readable;  // graphs
   const auto keep = [&](const graph::Quad& quad) {
     const auto [graph, fresh] = readable.try_emplace(quad.graph, true);
     if (fresh) {
       const std::string name(quad.graph ? terms.text(quad.graph) : kUnnamedGraph);
-      graph->second = !authority_->reason_against_graph(who_, name);
+      graph->second = !authority_->reason_against_graph(who_, name) &&
+                      (hidden.facts.empty() || name != kDerivedGraph);
       if (!graph->second) result.left_out.push_back(name);
     }
-    return graph->second && !hidden.contains(quad.subject.value) &&
-           !hidden.contains(quad.object.value);
+    return graph->second && !hidden.has(quad);
   };
   copy_facts(facts, result.store, keep);
   std::sort(result.left_out.begin(), result.left_out.end());
   return result;
+}
+
+// In a store that is his alone.
+void Reader::hide_what_follows(graph::Store& store) const {
+  const graph::View view = store.view();
+  const Hidden hidden = this->hidden(view);
+  if (hidden.facts.empty()) return;
+  const graph::Id derived = store.terms().find_iri(kDerivedGraph);
+  std::vector<graph::Quad> gone;
+  view.match_named({}, {}, {}, [&](const graph::Quad& quad) {
+    if (quad.graph == derived || hidden.has(quad)) gone.push_back(quad);
+    return true;
+  });
+  graph::Transaction transaction = store.begin();
+  for (const graph::Quad& quad : gone) transaction.remove(quad);
+  transaction.commit();
 }
 
 JudgedFacts Reader::facts() const {

@@ -15,6 +15,11 @@
 //   triggers           when they are added, and when the rights change
 //   graphs, scenes     when they are taken; what he may not read is left out, and named
 //
+// Facts that say where things are (`on`, `near`: qualitative_facts.h) are read by whoever may read
+// every measurement that they come from. What rules derived (situation_rules.h) may come from such
+// facts: where one of them is left out, the graph of derived facts is left out as a whole, and he
+// may apply the rules to his copy.
+//
 // What is refused is an Error with the measurement's IRI, who asked, and who would get it. Names,
 // frames, relations and what measures them by whom are symbolic: they are read by everybody, but
 // for measurements that one may not read. The owner of the World itself asks nobody.
@@ -63,7 +68,7 @@ class Reader {
   // By rights of its own, or by those that are in force.
   Reader(const World& world, Rights rights, std::string who,
          std::shared_ptr<Audit> audit = nullptr);
-  Reader(const World& world, std::string who, std::shared_ptr<Authority> authority);
+  Reader(const World& world, std::shared_ptr<Authority> authority, std::string who);
   const std::string& who() const { return who_; }
 
   // ---- queries ----
@@ -97,7 +102,8 @@ class Reader {
 
   // ---- the graph ----
   // For SPARQL, traversal and property graphs: a copy of the world's graph as it is now, without
-  // graphs that he may not read and without what is said of measurements that he may not read.
+  // graphs that he may not read and without what is said of, or follows from, measurements that he
+  // may not read.
   JudgedFacts facts() const;
   // The same of the past.
   JudgedFacts facts_at(const FactHistory& history, Stamp time) const;
@@ -114,7 +120,10 @@ class Reader {
   void ask(MeasurementId measurement) const;
   UncertaintyGuard uncertainty_guard() const;
   bool may_read(MeasurementId measurement) const;
+  struct Hidden;
+  Hidden hidden(const graph::View& facts) const;
   JudgedFacts judged(const graph::View& facts) const;
+  void hide_what_follows(graph::Store& store) const;
 
   const World* world_;
   std::string who_;

@@ -115,8 +115,7 @@ bool RegionPart::touches(const Shape& shape) const {
 
 bool RegionPart::holds(const Shape& shape) const {
   const Verdict verdict = judge(shape);
-  return verdict == Verdict::kUnknown ? protrusion(shape, *part_) <= kTouchingDistance
-                                      : verdict == Verdict::kWithin;
+  return verdict == Verdict::kUnknown ? inside(shape, *part_) : verdict == Verdict::kWithin;
 }
 
 }  // namespace sinew::world

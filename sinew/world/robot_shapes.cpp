@@ -62,7 +62,7 @@ struct RobotShapes {
     if (!file || !factor) return std::nullopt;
     declared.mesh_file = numbers.text(*file);
     declared.mesh_scale = scale * *factor;
-    return mesh_bounds(load_mesh(resolve_mesh(declared.mesh_file, meshes), declared.mesh_scale));
+    return load_mesh(resolve_mesh(declared.mesh_file, meshes), declared.mesh_scale);
   }
 
   void collision(Id node) {

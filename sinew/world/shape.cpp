@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "sinew/world/refuse.h"
+#include "sinew/world/triangle_mesh.h"
 
 namespace sinew::world {
 namespace {
@@ -70,6 +71,9 @@ struct Check {
       }
     }
   }
+  void operator()(const Mesh& mesh) const {  // make_mesh has checked the rest
+    if (!mesh.triangles) refuse(iri, "a mesh without its triangles", "make_mesh");
+  }
   void operator()(const Polygon& polygon) const {
     const std::size_t n = polygon.outline.size();
     if (n < 3 || n > kMaximumPolygonCorners) {
@@ -120,6 +124,12 @@ struct Support {
   Vector3 operator()(const MeshBounds& mesh) const {
     return corner_along(mesh.minimum, mesh.maximum, d);
   }
+  Vector3 operator()(const Mesh& mesh) const {
+    return farthest_vertex(
+        *mesh.triangles,
+        [&](const Bounds3& box) { return dot(d, corner_along(box.minimum, box.maximum, d)); },
+        [&](const Vector3& vertex) { return dot(d, vertex); });
+  }
   Vector3 operator()(const Sphere& sphere) const {
     const double size = length(d);
     return size > 0 ? (sphere.radius / size) * d : Vector3{sphere.radius, 0, 0};
@@ -143,6 +153,10 @@ struct Middle {
   Vector3 operator()(const Sphere&) const { return {}; }
   Vector3 operator()(const Cylinder&) const { return {}; }
   Vector3 operator()(const MeshBounds& mesh) const { return 0.5 * (mesh.minimum + mesh.maximum); }
+  Vector3 operator()(const Mesh& mesh) const {
+    const Bounds3& box = mesh.triangles->bounds();
+    return 0.5 * (box.minimum + box.maximum);
+  }
   Vector3 operator()(const Polygon& polygon) const {
     const Geometry geometry = polygon;
     const Bounds3 box = bounds(Shape{geometry, {}});
@@ -183,6 +197,13 @@ struct Farthest {
   }
   double operator()(const MeshBounds& mesh) const {
     return corners(box_corners(mesh.minimum, mesh.maximum));
+  }
+  double operator()(const Mesh& mesh) const {
+    const Vector3 point = farthest_vertex(
+        *mesh.triangles,
+        [&](const Bounds3& box) { return corners(box_corners(box.minimum, box.maximum)); },
+        [&](const Vector3& vertex) { return reach(X.p + rotate(X.q, vertex)); });
+    return reach(X.p + rotate(X.q, point));
   }
   double operator()(const Polygon& polygon) const {
     std::vector<Vector3> points;
@@ -246,6 +267,10 @@ struct Protrusion {
   }
   double operator()(const Box& box) const { return over_box(-0.5 * box.size, 0.5 * box.size); }
   double operator()(const MeshBounds& mesh) const { return over_box(mesh.minimum, mesh.maximum); }
+  double operator()(const Mesh& mesh) const {
+    const Bounds3& box = mesh.triangles->bounds();
+    return over_box(box.minimum, box.maximum);
+  }
   double operator()(const Sphere& sphere) const { return farthest(a, X_B, false) - sphere.radius; }
   double operator()(const Cylinder& cylinder) const {
     return std::max({over({0, 0, 1}, 0.5 * cylinder.height),
@@ -313,6 +338,11 @@ Bounds3 bounds(const std::vector<Shape>& shapes) {
                    std::max(all.maximum.z, high.z)};
   }
   return all;
+}
+
+bool is_open_mesh(const Shape& shape) {
+  const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+  return mesh && !mesh->triangles->is_closed;
 }
 
 double protrusion(const Shape& a, const Shape& b) {

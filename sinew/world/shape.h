@@ -1,16 +1,20 @@
-// Shapes of objects and areas, for queries about space. Each shape is convex; what is not is given
-// as several shapes, of which it is the union. Lengths are in metres.
+// Shapes of objects and areas, for queries about space. Each shape is convex but for meshes, which
+// are their triangles; what is not convex is a mesh, or several shapes, of which it is the union.
+// Lengths are in metres.
 //
 //   const Shape top = {Box{{1.2, 0.8, 0.05}}, placement};     check_shape(top.geometry, iri)
 //   distance(cup, top)      how far the two are apart; 0 where they touch or overlap
 //   protrusion(cup, top)    by how much a point of the first is outside the second, at most
+//   inside(cup, box)        no point of the first is outside the second
 //   bounds(cup)             the smallest box along the axes that holds it
 //
 // The shapes of a question are placed in one frame. Overlap and distance come from Gilbert, Johnson
-// and Keerthi 1988 ("A fast procedure for computing the distance between complex objects").
+// and Keerthi 1988 ("A fast procedure for computing the distance between complex objects"), of
+// meshes triangle by triangle (triangle_mesh.h).
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <variant>
@@ -33,10 +37,14 @@ struct Polygon {  // convex, anticlockwise in x and y, from `bottom` to `top` al
   std::vector<std::array<double, 2>> outline;
   double bottom = 0, top = 0;
 };
-struct MeshBounds {  // the box along the mesh's axes that holds its vertices
+struct MeshBounds {  // of a mesh that is not looked at: the box along its axes that holds it
   Vector3 minimum, maximum;
 };
-using Geometry = std::variant<Box, Sphere, Cylinder, Polygon, MeshBounds>;
+struct TriangleMesh;
+struct Mesh {  // never null; where it is closed, a solid
+  std::shared_ptr<const TriangleMesh> triangles;
+};
+using Geometry = std::variant<Box, Sphere, Cylinder, Polygon, MeshBounds, Mesh>;
 
 struct Shape {
   Geometry geometry;
@@ -63,7 +71,13 @@ Vector3 middle(const Shape& shape);  // of its bounds along its own axes
 Bounds3 bounds(const Shape& shape);
 Bounds3 bounds(const std::vector<Shape>& shapes);  // of all; at least one
 double distance(const Shape& a, const Shape& b);
-double protrusion(const Shape& a, const Shape& b);  // negative: inside with room to spare
-inline bool touch(const Shape& a, const Shape& b) { return distance(a, b) <= kTouchingDistance; }
+bool touch(const Shape& a, const Shape& b);
+// Negative: inside with room to spare. Out of a mesh is out of its bounds: what is in a bin is in
+// none of the bin's material.
+double protrusion(const Shape& a, const Shape& b);
+// To the distance that counts as touching. In a mesh is in the solid that it encloses; nothing is
+// in one that is open, nor a mesh in a mesh whose surface it touches.
+bool inside(const Shape& a, const Shape& b);
+bool is_open_mesh(const Shape& shape);
 
 }  // namespace sinew::world

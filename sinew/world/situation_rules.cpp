@@ -48,12 +48,12 @@ void SituationRules::add(SituationRule rule) {
   find_.push_back(std::move(rule));
 }
 
-Situation SituationRules::apply(graph::Store& store) const {
+AppliedRules SituationRules::apply(graph::Store& store) const {
   graph::Terms& terms = store.terms();
   const Id derived = terms.iri(kDerivedGraph);
   graph::Transaction transaction = store.begin();
   transaction.clear(derived);
-  Situation situation;
+  AppliedRules situation;
   for (bool more = !derive_.empty(); more; ++situation.rounds) {
     if (situation.rounds == kMaximumRounds) {
       refuse(derive_.front().name,

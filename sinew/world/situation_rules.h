@@ -40,7 +40,7 @@ struct Finding {
   std::map<std::string, std::string> values;  // by variable, without those that are unbound
 };
 
-struct Situation {
+struct AppliedRules {
   std::vector<Finding> findings;  // by rule, then by row
   std::size_t facts = 0;          // derived, each once
   int rounds = 0;                 // until nothing new followed
@@ -52,7 +52,7 @@ class SituationRules {
   // the query does not have, or there are kMaximumSituationRules.
   void add(SituationRule rule);
   // In one transaction: all facts or, when a limit is reached, an Error and the facts of before.
-  Situation apply(graph::Store& store) const;
+  AppliedRules apply(graph::Store& store) const;
 
  private:
   std::vector<SituationRule> derive_, find_;

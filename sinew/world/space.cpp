@@ -181,6 +181,19 @@ void Space::follow_structure() {
   is_watching_ = false;
 }
 
+// Whoever may read no longer, or may again, is answered so although nothing was written.
+void Space::follow_rights() {
+  if (!reader_) return;
+  const std::uint64_t changes = reader_->authority_->changes();
+  if (changes == rights_) return;
+  rights_ = changes;
+  for (Place& place : places_) {
+    place.query.reset();
+    plan_anew(place);
+  }
+  is_watching_ = false;
+}
+
 // Asked the other way round: ways are searched from `with_respect_to`, and a body's frame has few
 // relations where the space's may have one for every body.
 void Space::plan_anew(Place& place) const {
@@ -296,6 +309,7 @@ Space::Update Space::update(Stamp now) {
   const std::uint64_t structure = world_->structure_version();
   if (structure != structure_) follow_structure();
   structure_ = structure;
+  follow_rights();
   add_place(frame_);  // where regions are asked for most
   std::vector<Index> added;
   for (const Index i : added_) {
@@ -333,7 +347,12 @@ Space::Update Space::update(Stamp now) {
   return counts;
 }
 
-RegionAnswer Space::search(const std::vector<Shape>& region, Match match) const {
+RegionAnswer Space::search(const std::vector<Shape>& region, Match match,
+                           std::string_view iri) const {
+  if (match == Match::kInside && std::any_of(region.begin(), region.end(), is_open_mesh)) {
+    refuse(iri, "a mesh of the region is open: nothing is inside it",
+           "a mesh that is closed, bounds, or what touches the region");
+  }
   RegionAnswer answer{.status = Status::kOk, .bodies = {}, .unplaced = unplaced_};
   candidates_.clear();
   index_.search(grown(bounds(region), kTouchingDistance), candidates_);
@@ -361,13 +380,13 @@ RegionAnswer Space::within(FrameId frame, const std::vector<Shape>& region, Matc
   if (!at) return {.status = at.status, .bodies = {}, .unplaced = {}};
   std::vector<Shape> seen;
   for (const Shape& shape : region) seen.push_back(placed(at.pose, shape));
-  return search(seen, match);
+  return search(seen, match, "the region");
 }
 
 RegionAnswer Space::within(BodyId id, Match match) const {
   const Body& area = alive(id);
   if (!area.is_placed) return {.status = status(id), .bodies = {}, .unplaced = {}};
-  RegionAnswer answer = search(area.placed, match);
+  RegionAnswer answer = search(area.placed, match, area.name);
   std::erase(answer.bodies, id);
   return answer;
 }
@@ -417,6 +436,22 @@ Status Space::status(BodyId body) const {
   if (alive(body).is_placed) return Status::kOk;
   const Status of_frame = pose(body).status;
   return of_frame == Status::kOk ? Status::kNoData : of_frame;  // added since the last update
+}
+
+std::vector<MeasurementId> Space::read_for(std::span<const BodyId> bodies, FrameId frame) const {
+  std::vector<MeasurementId> found;
+  const auto add = [&found](const PreparedPose& query) {
+    const auto read = measurements_of(query.plan());
+    found.insert(found.end(), read.begin(), read.end());
+  };
+  for (const BodyId body : bodies) {
+    const Index place = alive(body).place;
+    if (place != kNone && places_[place].query) add(*places_[place].query);
+  }
+  if (frame) add(prepare({.of = frame, .with_respect_to = frame_, .policy = policy_}));
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 PoseAnswer Space::pose_of(FrameId frame) const {

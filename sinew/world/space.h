@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <queue>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -60,7 +61,8 @@ class Space {
   // Where a pose has expired, Policy::kFilter leaves the body unplaced.
   Space(const World& world, FrameId frame, Policy policy = Policy::kInform);
   // On behalf of a component: what it may not read has no place, with Status::kForbidden. Its
-  // rights are asked when a frame is first placed, and after structural edits.
+  // rights are asked when a frame is first placed, and at the next update after structural edits or
+  // a change of the rights.
   Space(const Reader& reader, FrameId frame, Policy policy = Policy::kInform);
 
   // Shapes are described in the frame of the object, or in the given one. A body has the IRI of its
@@ -78,6 +80,7 @@ class Space {
   };
   Update update(Stamp now);
 
+  // Error where something is to be inside an open mesh.
   RegionAnswer within(FrameId frame, const std::vector<Shape>& region, Match match) const;
   RegionAnswer within(BodyId area, Match match) const;
   RegionAnswer within(std::string_view area_iri, Match match) const;  // Error where there is none
@@ -96,6 +99,9 @@ class Space {
   Status status(BodyId body) const;  // kOk when it is placed, or why it is not
   // Another frame of the world in frame(), at the time of the last update.
   PoseAnswer pose_of(FrameId frame) const;
+  // What the places of these were read from, constants too: whoever may not read one of them may
+  // not learn where they are. Each once.
+  std::vector<MeasurementId> read_for(std::span<const BodyId> bodies, FrameId frame = {}) const;
 
  private:
   struct Place {  // a frame that bodies are attached to
@@ -136,6 +142,7 @@ class Space {
   Index add_place(FrameId frame);
   PreparedPose prepare(const PoseQuery& query) const;
   void follow_structure();
+  void follow_rights();
   void plan_anew(Place& place) const;
   void watch_all();
   void mark_changed();
@@ -144,7 +151,7 @@ class Space {
   void list_unplaced();
   void place(Body& body, Index index, Update& counts);
   void take_out(Body& body, Index index);
-  RegionAnswer search(const std::vector<Shape>& region, Match match) const;
+  RegionAnswer search(const std::vector<Shape>& region, Match match, std::string_view iri) const;
 
   const World* world_;
   FrameId frame_;
@@ -158,6 +165,7 @@ class Space {
   std::unordered_map<Index, Index> place_of_;  // by frame
   std::uint64_t structure_ = 0;                // the world's, at the last update
   std::shared_ptr<const Reader> reader_;       // on whose behalf; null: the owner's
+  std::uint64_t rights_ = 0;                   // how often they had changed, at the last update
   std::vector<Watched> watched_;               // in the order of their counts in memory
   std::vector<Index> always_;                  // places that are read at each update
   std::priority_queue<Recheck> rechecks_;

@@ -12,6 +12,7 @@
 #include "sinew/world/scene.h"
 #include "sinew/world/state.h"
 #include "sinew/world/symbols.h"
+#include "sinew/world/triangle_mesh.h"
 
 namespace sinew::world {
 namespace {
@@ -320,6 +321,7 @@ struct SceneWriter {
     struct Write {
       SceneWriter& writer;
       Id node;
+      FrameId seen_by;
       decltype(real)& number;
       void operator()(const Box& box) const {
         writer.type(node, vocab::shape::Box);
@@ -342,6 +344,12 @@ struct SceneWriter {
         number(vocab::w::bottom, polygon.bottom);
         number(vocab::w::top, polygon.top);
       }
+      void operator()(const Mesh& mesh) const {  // whose file nobody names
+        writer.left_out(writer.world.name(seen_by),
+                        "is shaped by a mesh of no file: its bounds are written; the mesh itself");
+        const Bounds3& box = mesh.triangles->bounds();
+        (*this)(MeshBounds{box.minimum, box.maximum});
+      }
       void operator()(const MeshBounds& mesh) const {
         writer.type(node, vocab::w::MeshBounds);
         writer.add(node, vocab::w::lowest, writer.vector(mesh.minimum));
@@ -353,7 +361,7 @@ struct SceneWriter {
       add(node, vocab::shape::file, terms().literal(declared.mesh_file));
       add(node, vocab::shape::scale, vector(declared.mesh_scale));
     } else {
-      std::visit(Write{*this, node, real}, declared.shape.geometry);
+      std::visit(Write{*this, node, declared.seen_by, real}, declared.shape.geometry);
     }
     const auto& [q, p] = declared.shape.placement;
     if (p.x != 0 || p.y != 0 || p.z != 0) add(node, w("position"), vector(p));

@@ -108,15 +108,20 @@ TEST(MeshFile, EveryFormatReachesAsFar) {
   };
   for (const Case& one : {Case{"text.stl", text_stl(), 0}, Case{"binary.stl", binary_stl(), 0},
                           Case{"wedge.obj", obj(), 0}, Case{"wedge.dae", dae(), 1}}) {
-    const MeshBounds found = mesh_bounds(load_mesh(folder.write(one.name, one.text), {1, 1, 1}));
+    const Mesh mesh = load_mesh(folder.write(one.name, one.text), {1, 1, 1});
+    EXPECT_EQ(mesh.triangles->triangles.size(), 4u) << one.name;
+    EXPECT_TRUE(mesh.triangles->is_closed) << one.name;
+    const Bounds3& found = mesh.triangles->bounds();
     EXPECT_NEAR(found.minimum.x, one.x, 1e-6) << one.name;
     EXPECT_NEAR(found.maximum.x, one.x + 2, 1e-6) << one.name;
     EXPECT_NEAR(found.maximum.y, 3, 1e-6) << one.name;
     EXPECT_NEAR(found.maximum.z, 4, 1e-6) << one.name;
   }
   // In millimetres, and mirrored along y.
-  const MeshBounds scaled =
-      mesh_bounds(load_mesh((folder.path / "meshes/text.stl").string(), {0.001, -0.001, 0.001}));
+  const Mesh mirrored =
+      load_mesh((folder.path / "meshes/text.stl").string(), {0.001, -0.001, 0.001});
+  EXPECT_TRUE(mirrored.triangles->is_closed);
+  const Bounds3& scaled = mirrored.triangles->bounds();
   EXPECT_NEAR(scaled.maximum.x, 0.002, 1e-9);
   EXPECT_NEAR(scaled.minimum.y, -0.003, 1e-9);
 }
@@ -143,13 +148,83 @@ TEST(MeshFile, WhatIsNoMeshIsRefused) {
             }).find("the mesh is not read"),
             std::string::npos);
   EXPECT_NE(refusal([&] { load_mesh(folder.write("no.obj", "f 1 2 3\n"), {1, 1, 1}); }), "none");
-  EXPECT_NE(
-      refusal([&] { load_mesh(folder.write("no.dae", "<x/>"), {1, 1, 1}); }).find("is no mesh"),
-      std::string::npos);
+  EXPECT_NE(refusal([&] {
+              load_mesh(folder.write("no.dae", "<x/>"), {1, 1, 1});
+            }).find("is no mesh"),
+            std::string::npos);
   // As large as the limit allows, and one byte more; nothing of it is read.
   const std::string large = folder.write("large.stl", "solid");
   fs::resize_file(large, kMaximumMeshBytes + 1);
   EXPECT_NE(refusal([&] { load_mesh(large, {1, 1, 1}); }).find("bytes"), std::string::npos);
+}
+
+// A file that is at a limit is read, one that is over it is refused with the limit and the file.
+TEST(MeshFile, EveryLimitIsKept) {
+  const Folder folder;
+  const std::string file = folder.write("wedge.obj", obj());
+  const std::size_t bytes = obj().size();
+  struct Case {
+    std::string what;
+    MeshLimits at, over;
+  };
+  // Without welding: what the file's faces are taken apart to.
+  const Case cases[] = {
+      {"bytes", {.bytes = bytes}, {.bytes = bytes - 1}},
+      {"triangles", {.triangles = 4}, {.triangles = 3}},
+      {"vertices", {.vertices = 12}, {.vertices = 3}},
+  };
+  for (const Case& one : cases) {
+    EXPECT_EQ(refusal([&] { load_mesh(file, {1, 1, 1}, one.at); }), "none") << one.what;
+    const std::string said = refusal([&] { load_mesh(file, {1, 1, 1}, one.over); });
+    EXPECT_NE(said.find(one.what), std::string::npos) << said;
+    EXPECT_NE(said.find("wedge.obj"), std::string::npos) << said;
+  }
+}
+
+// Of the file's own nodes; the reader puts a root above them.
+TEST(MeshFile, NodesWithinNodesAreAsDeepAsTheLimit) {
+  const Folder folder;
+  const auto nested = [&](std::size_t nodes) {
+    std::string text = dae();
+    const std::string open = "<node id=\"at\"><translate>100 0 0</translate>", close = "</node>";
+    std::string before, after;
+    for (std::size_t i = 1; i < nodes; ++i) {
+      before += "<node id=\"n" + std::to_string(i) + "\">";
+      after += close;
+    }
+    text.insert(text.find(close) + close.size(), after);
+    text.insert(text.find(open), before);
+    return folder.write("deep.dae", text);
+  };
+  EXPECT_EQ(refusal([&] { load_mesh(nested(kMaximumMeshDepth - 1), {1, 1, 1}); }), "none");
+  const std::string said = refusal([&] { load_mesh(nested(kMaximumMeshDepth + 2), {1, 1, 1}); });
+  EXPECT_NE(said.find("more than 64 deep"), std::string::npos) << said;
+  EXPECT_EQ(refusal([&] { load_mesh(nested(5), {1, 1, 1}, {.depth = 5}); }), "none");
+  EXPECT_NE(refusal([&] { load_mesh(nested(5), {1, 1, 1}, {.depth = 3}); }), "none");
+}
+
+// Each mention of a mesh counts: a small file may not grow without bound.
+TEST(MeshFile, MentionsOfAMeshCountEach) {
+  const Folder folder;
+  std::string text = dae();
+  const std::string one = "<instance_geometry url=\"#wedge\"/>";
+  for (int i = 0; i < 9; ++i) text.insert(text.find(one), one);
+  const std::string file = folder.write("many.dae", text);
+  EXPECT_EQ(refusal([&] { load_mesh(file, {1, 1, 1}, {.triangles = 40}); }), "none");
+  EXPECT_NE(refusal([&] {
+              load_mesh(file, {1, 1, 1}, {.triangles = 39});
+            }).find("39 triangles"),
+            std::string::npos);
+}
+
+// A face of four corners is two triangles, and a line is one without a face.
+TEST(MeshFile, FacesAreCutIntoTriangles) {
+  const Folder folder;
+  const std::string quad =
+      folder.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  EXPECT_EQ(load_mesh(quad, {1, 1, 1}).triangles->triangles.size(), 2u);
+  const std::string line = folder.write("line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n");
+  EXPECT_EQ(load_mesh(line, {1, 1, 1}).triangles->triangles.size(), 1u);
 }
 
 TEST(MeshFile, AnObjectIsShapedByItsMesh) {
@@ -180,7 +255,7 @@ TEST(MeshFile, AnObjectIsShapedByItsMesh) {
   const DeclaredScene read = load(scene, meshes, report, world);
   ASSERT_FALSE(report.has_errors()) << to_string(report.problems().front());
   ASSERT_EQ(read.bodies.size(), 1u);
-  const auto& bounds = std::get<MeshBounds>(read.bodies[0].shapes[0].shape.geometry);
+  const auto& bounds = std::get<Mesh>(read.bodies[0].shapes[0].shape.geometry).triangles->bounds();
   EXPECT_NEAR(bounds.maximum.y, 0.006, 1e-9);
   // It is written as the mesh that it is.
   graph::Store out;

@@ -50,8 +50,8 @@ std::string refusal(Call&& call) {
 
 TEST(Reader, OnlyDeclaredUsersGetAnAnswer) {
   Cell cell;
-  const Reader task(cell.world, {}, kTask), camera(cell.world, {}, kCamera),
-      other(cell.world, {}, kOther), nobody(cell.world, {}, "");
+  const Reader task(cell.world, Rights(), kTask), camera(cell.world, Rights(), kCamera),
+      other(cell.world, Rights(), kOther), nobody(cell.world, Rights(), "");
   for (const Reader& may : {task, camera}) {
     EXPECT_EQ(may.pose(cell.part, cell.base, at_s(1)).status, Status::kOk);
     EXPECT_EQ(may.latest(cell.seen, at_s(1)).status, Status::kOk);
@@ -92,7 +92,7 @@ TEST(Reader, RulesAreStrongerThanDeclaredUsers) {
 TEST(Reader, IsJudgedWhenItIsPreparedAndNotWhenItReads) {
   Cell cell;
   const auto audit = std::make_shared<Audit>();
-  const Reader task(cell.world, {}, kTask, audit);
+  const Reader task(cell.world, Rights(), kTask, audit);
   PreparedPose prepared = task.prepare_pose(cell.query());
   const auto judged = audit->counts().accepted;
   EXPECT_EQ(judged, 2u);  // the constant, and what is seen
@@ -107,7 +107,7 @@ TEST(Reader, IsJudgedWhenItIsPreparedAndNotWhenItReads) {
 TEST(Reader, ANewPlanIsJudgedToo) {
   Cell cell;
   const auto audit = std::make_shared<Audit>();
-  const Reader task(cell.world, {}, kTask, audit);
+  const Reader task(cell.world, Rights(), kTask, audit);
   PreparedPose prepared = task.prepare_pose(cell.query());
   PreparedPose copy = prepared;
   const MeasurementId secret = cell.world.add_measurement(

@@ -82,7 +82,7 @@ struct Table {
   FrameId table, tool;
 };
 
-std::vector<std::string> messages(const Situation& situation) {
+std::vector<std::string> messages(const AppliedRules& situation) {
   std::vector<std::string> result;
   for (const Finding& finding : situation.findings) result.push_back(finding.message);
   return result;
@@ -98,7 +98,7 @@ TEST(SituationRules, WhatIsTooHeavyForTheArmIsFoundWhenItHangsOnIt) {
   t.world.attach(t.frame_of("bolt"), t.tool, Stamp(), "http://x/me");
   EXPECT_TRUE(rules.apply(t.world.graph()).findings.empty());
   t.world.attach(t.frame_of("anvil"), t.tool, Stamp(), "http://x/me");
-  const Situation situation = rules.apply(t.world.graph());
+  const AppliedRules situation = rules.apply(t.world.graph());
   ASSERT_EQ(situation.findings.size(), 1u);
   EXPECT_EQ(situation.findings[0].rule, "http://x/payload");
   EXPECT_EQ(situation.findings[0].message,
@@ -117,7 +117,7 @@ TEST(SituationRules, AffordancesFollowTheContextAndGoWithIt) {
   const Messages all = {
       "http://x/anvil affords http://x/assembling", "http://x/anvil affords http://x/grasping",
       "http://x/bolt affords http://x/assembling", "http://x/bolt affords http://x/grasping"};
-  Situation situation = rules.apply(t.world.graph());
+  AppliedRules situation = rules.apply(t.world.graph());
   EXPECT_EQ(messages(situation), all);
   EXPECT_EQ(situation.facts, 4u);
   EXPECT_LE(situation.rounds, 3);

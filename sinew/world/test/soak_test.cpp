@@ -125,7 +125,7 @@ TEST(Soak, EverythingAtOnceStaysConsistent) {
   });
   // 4: the past, through a reader that may; whatever was corrected, x is the stamp.
   threads.emplace_back([&] {
-    const Reader reader(hall.world, {}, "http://x/logger");
+    const Reader reader(hall.world, Rights(), "http://x/logger");
     const PoseQuery query{.of = hall.crane, .with_respect_to = hall.floor};
     PreparedPose prepared = reader.prepare_pose(query);
     for (std::uint64_t i = 0; !stop; ++i) {
