@@ -7,6 +7,9 @@
 namespace sinew::algorithm {
 
 #define SINEW_OWN "https://w3id.org/sinew/operators#"
+#define SINEW_PUBLISHED "https://comp-rob2b.github.io/metamodels/"
+#define SINEW_GEOMETRY SINEW_PUBLISHED "geometry/spatial-operators#"
+#define SINEW_DYNAMICS SINEW_PUBLISHED "newtonian-rigid-body-dynamics/operators#"
 
 // ports: "NAME:QUANTITY ... -> NAME:QUANTITY ..."; `NAME*` takes a list.
 // rules: "PORT.SYMBOL = PORT.SYMBOL; ..." with the symbols of, wrt, seen, ref; `at` is seen and ref
@@ -19,6 +22,12 @@ struct OperatorRow {
   std::string_view units = {};
 };
 
+// operators_motion.cpp: poses, velocity and acceleration twists
+std::span<const OperatorRow> motion_operator_rows();
+// operators_dynamics.cpp: wrenches, inertias
+std::span<const OperatorRow> dynamics_operator_rows();
+// operators_whole.cpp: the floating base, Jacobians, momentum, energy, matrices
+std::span<const OperatorRow> whole_operator_rows();
 // operators_control.cpp: controllers, monitors, views, guarded motions
 std::span<const OperatorRow> control_operator_rows();
 // operators_relative.cpp: motion between two frames, coordinates of rotation

@@ -22,7 +22,7 @@ namespace {
 
 using namespace sinew::math;
 
-// Operators of the same name in the catalogue (algorithm/operators.cpp) have the same ports; a test
+// Operators of the same name in the catalogue (algorithm/operators.h) have the same ports; a test
 // compares the two tables.
 std::vector<Kernel> make_kernels() {
   std::vector<Kernel> rows = {

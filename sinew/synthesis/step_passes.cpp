@@ -154,7 +154,7 @@ class Description {
     const algorithm::Operator* op = algorithm::find_operator_by_iri(terms_.text(type));
     if (op == nullptr)
       fail(node, fmt::format("there is no operator {}", terms_.text(type)),
-           "name one of sinew/algorithm/operators.cpp by its IRI");
+           "name one of sinew/algorithm/operators_*.cpp by its IRI");
     std::vector<BlockIndex> arguments;
     std::vector<std::uint32_t> counts;
     for (const algorithm::Port& port : op->ports) {
