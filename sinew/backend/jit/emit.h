@@ -11,7 +11,6 @@
 
 namespace sinew::backend {
 
-inline constexpr unsigned kSineLanes = 8;  // angles in a vector of doubles
 inline constexpr const char* kSingleName = "sinew_single";
 inline constexpr const char* kOneByOneName = "sinew_one_by_one";
 inline constexpr const char* kBlockName = "sinew_block";

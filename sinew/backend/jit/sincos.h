@@ -14,6 +14,8 @@
 
 namespace sinew::backend {
 
+inline constexpr unsigned kSineLanes = 8;  // angles in a vector of doubles
+
 struct SincosValues {
   std::vector<LLVMValueRef> sine, cosine;  // as wide as the angles
 };

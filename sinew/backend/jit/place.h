@@ -1,0 +1,20 @@
+// Where code goes, for all that writes a function of LLVM IR.
+#pragma once
+
+#include <llvm-c/Core.h>
+
+namespace sinew::backend {
+
+struct Place {
+  LLVMBuilderRef builder = nullptr;
+  LLVMValueRef function = nullptr;
+  LLVMValueRef repair = nullptr;  // see sincos.h
+  bool fuse = false;              // products into sums
+};
+
+// Bytes of a float or a double.
+inline unsigned bytes_of(LLVMTypeRef number) {
+  return LLVMGetTypeKind(number) == LLVMFloatTypeKind ? 4 : 8;
+}
+
+}  // namespace sinew::backend
