@@ -122,6 +122,38 @@ void compute_effect_wrenches(Context& context, const Visit& visit, std::span<con
   }
 }
 
+void configure_wrench_past_joint(Context& context, const JointEdge& edge, const Effect& effect) {
+  const auto make = [&](std::string_view slot, Id of, Id frame) {
+    return make_effect_wrench(context, effect, slot, edge.joint, of, frame);
+  };
+  make("effect-wrench-at-joint", edge.successor, edge.joint_frame);
+  make("effect-wrench-at-predecessor", edge.successor, edge.parent);
+  BlockIndex before = effect_block(context, kWrench, effect.element, edge.parent);
+  if (before == kNoIndex) before = no_wrench(context, edge.parent, edge.predecessor);
+  context.board.put("effect-wrench-before", context.pair(effect.element, edge.joint), before);
+  context.board.put(kWrench, context.pair(effect.element, edge.parent),
+                    make("effect-wrench-with", edge.predecessor, edge.parent));
+}
+
+void compute_wrench_past_joint(Context& context, const JointEdge& edge, const Effect& effect,
+                               BlockIndex wrench) {
+  const auto block = [&](std::string_view slot) {
+    return effect_block(context, slot, effect.element, edge.joint);
+  };
+  context.closure(
+      "transform-wrench-to-proximal",
+      {context.block("pose-across-joint", edge.joint), wrench, block("effect-wrench-at-joint")},
+      edge.joint);
+  context.closure("transform-wrench-to-proximal",
+                  {context.block("placement", edge.joint), block("effect-wrench-at-joint"),
+                   block("effect-wrench-at-predecessor")},
+                  edge.joint);
+  context.closure("accumulate-wrench",
+                  {block("effect-wrench-before"), block("effect-wrench-at-predecessor"),
+                   block("effect-wrench-with")},
+                  edge.joint);
+}
+
 std::vector<std::string> needs_of_driver_wrenches(const MotionDrivers& drivers) {
   std::vector<std::string> needs = {"placement", "pose-across-joint", "inertia", "bias-own-wrench"};
   for (const DriverGroup& group : drivers.groups) {

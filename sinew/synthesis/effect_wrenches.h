@@ -15,6 +15,12 @@ namespace sinew::synthesis {
 void configure_effect_wrenches(Context& context, const Visit& visit, std::span<const Effect> list);
 void compute_effect_wrenches(Context& context, const Visit& visit, std::span<const Effect> list);
 
+// The wrench of an effect goes on past a joint: to the joint's frame and the predecessor's, where
+// it comes on top of what is there. The second pass begins with `wrench`, seen from the successor.
+void configure_wrench_past_joint(Context& context, const JointEdge& edge, const Effect& effect);
+void compute_wrench_past_joint(Context& context, const JointEdge& edge, const Effect& effect,
+                               BlockIndex wrench);
+
 // What a step needs that takes wrenches and given forces of all groups of drivers inward.
 std::vector<std::string> needs_of_driver_wrenches(const MotionDrivers& drivers);
 

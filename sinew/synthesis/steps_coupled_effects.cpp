@@ -49,42 +49,19 @@ void configure_joint(Context& context, const Visit& visit) {
   for (const Effect& effect : of_groups(context)) {
     if (effect_block(context, kWrench, effect.element, edge.child) == kNoIndex) continue;
     make_joint_effect(context, edge, effect, "held-force", "force");
-    if (edge.parent == context.robot.root_frame) continue;
-    const auto make = [&](std::string_view slot, Id of, Id frame) {
-      return make_effect_wrench(context, effect, slot, edge.joint, of, frame);
-    };
-    make("effect-wrench-at-joint", edge.successor, edge.joint_frame);
-    make("effect-wrench-at-predecessor", edge.successor, edge.parent);
-    BlockIndex before = effect_block(context, kWrench, effect.element, edge.parent);
-    if (before == kNoIndex) before = no_wrench(context, edge.parent, edge.predecessor);
-    context.board.put("effect-wrench-before", context.pair(effect.element, edge.joint), before);
-    context.board.put(kWrench, context.pair(effect.element, edge.parent),
-                      make("effect-wrench-with", edge.predecessor, edge.parent));
+    if (edge.parent != context.robot.root_frame) configure_wrench_past_joint(context, edge, effect);
   }
 }
 
 void compute_joint(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   for (const Effect& effect : of_groups(context)) {
-    const auto block = [&](std::string_view slot) {
-      return effect_block(context, slot, effect.element, edge.joint);
-    };
     const BlockIndex wrench = effect_block(context, kWrench, effect.element, edge.child);
     if (wrench == kNoIndex) continue;
-    context.closure("force-from-wrench-" + edge.kind, {wrench, block("held-force")}, edge.joint);
-    if (edge.parent == context.robot.root_frame) continue;
-    context.closure(
-        "transform-wrench-to-proximal",
-        {context.block("pose-across-joint", edge.joint), wrench, block("effect-wrench-at-joint")},
-        edge.joint);
-    context.closure("transform-wrench-to-proximal",
-                    {context.block("placement", edge.joint), block("effect-wrench-at-joint"),
-                     block("effect-wrench-at-predecessor")},
-                    edge.joint);
-    context.closure("accumulate-wrench",
-                    {block("effect-wrench-before"), block("effect-wrench-at-predecessor"),
-                     block("effect-wrench-with")},
-                    edge.joint);
+    const BlockIndex force = effect_block(context, "held-force", effect.element, edge.joint);
+    context.closure("force-from-wrench-" + edge.kind, {wrench, force}, edge.joint);
+    if (edge.parent != context.robot.root_frame)
+      compute_wrench_past_joint(context, edge, effect, wrench);
   }
 }
 

@@ -42,17 +42,9 @@ void configure_joint(Context& context, const Visit& visit) {
       make_joint_effect(context, edge, effect, "effect-force-of-wrench", "force");
     make_joint_effect(context, edge, effect, "effect-acceleration", "acceleration");
     if (edge.parent == context.robot.root_frame) continue;
-    const auto make = [&](std::string_view slot, Id of, Id frame) {
-      return make_effect_wrench(context, effect, slot, edge.joint, of, frame);
-    };
-    make("effect-wrench-released", edge.successor, edge.child);
-    make("effect-wrench-at-joint", edge.successor, edge.joint_frame);
-    make("effect-wrench-at-predecessor", edge.successor, edge.parent);
-    BlockIndex before = effect_block(context, kWrench, effect.element, edge.parent);
-    if (before == kNoIndex) before = no_wrench(context, edge.parent, edge.predecessor);
-    context.board.put("effect-wrench-before", context.pair(effect.element, edge.joint), before);
-    context.board.put(kWrench, context.pair(effect.element, edge.parent),
-                      make("effect-wrench-with", edge.predecessor, edge.parent));
+    make_effect_wrench(context, effect, "effect-wrench-released", edge.joint, edge.successor,
+                       edge.child);
+    configure_wrench_past_joint(context, edge, effect);
   }
 }
 
@@ -99,18 +91,7 @@ void compute_joint(Context& context, const Visit& visit) {
                     {wrench, context.block("unit-wrench", edge.joint), block("effect-acceleration"),
                      block("effect-wrench-released")},
                     edge.joint);
-    context.closure("transform-wrench-to-proximal",
-                    {context.block("pose-across-joint", edge.joint),
-                     block("effect-wrench-released"), block("effect-wrench-at-joint")},
-                    edge.joint);
-    context.closure("transform-wrench-to-proximal",
-                    {context.block("placement", edge.joint), block("effect-wrench-at-joint"),
-                     block("effect-wrench-at-predecessor")},
-                    edge.joint);
-    context.closure("accumulate-wrench",
-                    {block("effect-wrench-before"), block("effect-wrench-at-predecessor"),
-                     block("effect-wrench-with")},
-                    edge.joint);
+    compute_wrench_past_joint(context, edge, effect, block("effect-wrench-released"));
   }
 }
 

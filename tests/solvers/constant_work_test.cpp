@@ -7,13 +7,12 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "humanoid_urdf.h"
+#include "instruction_counts.h"
 #include "question.h"
 #include "sinew/backend/c_target.h"
 #include "sinew/backend/compile.h"
@@ -116,27 +115,15 @@ TEST_P(ConstantWork, IsTheSameNumberOfInstructionsInAThousandStates) {
   fs::create_directories(folder);
   const fs::path self = fs::read_symlink("/proc/self/exe");
   const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-  const std::string line = fmt::format(
-      "cd '{}' && {}=1 valgrind --tool=callgrind --toggle-collect=sinew_counted_call "
-      "--dump-after=sinew_counted_call --callgrind-out-file=count '{}' --gtest_filter={}.{} "
-      "--gtest_output= > log 2>&1",
-      folder.string(), kCounting, self.string(), test.test_suite_name(), test.name());
+  const std::string line =
+      fmt::format("cd '{}' && {}=1 {} '{}' --gtest_filter={}.{} --gtest_output= > log 2>&1",
+                  folder.string(), kCounting, count_calls_of("sinew_counted_call"), self.string(),
+                  test.test_suite_name(), test.name());
   ASSERT_EQ(std::system(line.c_str()), 0) << line;
 
-  std::set<std::string> counts;
-  int calls = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (!entry.path().filename().string().starts_with("count.")) continue;
-    std::ifstream file(entry.path());
-    for (std::string text; std::getline(file, text);) {
-      // The last file is what was collected behind the last call: nothing.
-      if (!text.starts_with("summary: ") || text == "summary: 0") continue;
-      counts.insert(text);
-      ++calls;
-    }
-  }
-  EXPECT_EQ(calls, kStates);
-  EXPECT_EQ(counts.size(), 1U) << testing::PrintToString(counts);
+  const InstructionCounts counts = counted_in(folder);
+  EXPECT_EQ(counts.calls, kStates);
+  EXPECT_EQ(counts.different.size(), 1U) << testing::PrintToString(counts.different);
   fs::remove_all(folder);
 }
 

@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "instruction_counts.h"
 #include "serial_chain.h"
 #include "sinew/backend/c_target.h"
 
@@ -91,26 +91,14 @@ TEST_P(ConstantWork, OfGeneratedCIsTheSameNumberOfInstructionsInEveryState) {
     std::ofstream(folder / file.name) << file.text;
   }
   std::ofstream(folder / "driver.c") << driver(variant);
-  const std::string line = fmt::format(
-      "cd '{0}' && gcc -O2 driver.c chain.c -o driver -lm && valgrind --tool=callgrind "
-      "--toggle-collect={1} --dump-after={1} --callgrind-out-file=count ./driver > log 2>&1",
-      folder.string(), variant.function);
+  const std::string line =
+      fmt::format("cd '{}' && gcc -O2 driver.c chain.c -o driver -lm && {} ./driver > log 2>&1",
+                  folder.string(), test::count_calls_of(variant.function));
   ASSERT_EQ(std::system(line.c_str()), 0) << line;
 
-  std::set<std::string> counts;
-  int calls = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (!entry.path().filename().string().starts_with("count.")) continue;
-    std::ifstream file(entry.path());
-    for (std::string text; std::getline(file, text);) {
-      // The last file is what was collected behind the last call: nothing.
-      if (!text.starts_with("summary: ") || text == "summary: 0") continue;
-      counts.insert(text);
-      ++calls;
-    }
-  }
-  EXPECT_EQ(calls, kStates);
-  EXPECT_EQ(counts.size(), 1U) << testing::PrintToString(counts);
+  const test::InstructionCounts counts = test::counted_in(folder);
+  EXPECT_EQ(counts.calls, kStates);
+  EXPECT_EQ(counts.different.size(), 1U) << testing::PrintToString(counts.different);
   fs::remove_all(folder);
 }
 
