@@ -46,6 +46,7 @@ class Importer {
 
   void run() {
     for (const urdf::Link& link : document_.links) write_link(link);
+    if (document_.joints.empty()) return;  // one body, as a drone is: a chain has joints
     const Id chain = node("", "chain");
     in("chain");
     at(chain, document_.line);

@@ -58,6 +58,14 @@ TEST_F(OddRobot, WithoutAJointThatMovesHasNothingToAnswer) {
     EXPECT_EQ(stats(fixed, {"--solver", solver, "--floating"}).exit_code, 0) << solver;
 }
 
+TEST_F(OddRobot, OfOneLinkConformsAndFloats) {
+  for (const std::string solver : {"rnea", "aba", "crba", "fpk"})
+    EXPECT_EQ(stats(link("drone"), {"--solver", solver, "--floating"}).exit_code, 0) << solver;
+  const Result check = run_sinew({"check", (folder_ / "odd.urdf").string()});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_NE(check.out.find("1 bodies, 0 moving joints"), std::string::npos) << check.out;
+}
+
 TEST_F(OddRobot, WhoseLastLinkHasNoInertiaAboutItsJointHasNoAcceleration) {
   const std::string massless =
       "<inertial><mass value='0'/><inertia ixx='0' iyy='0' izz='0' ixy='0' "
