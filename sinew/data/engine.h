@@ -24,7 +24,7 @@ namespace sinew::data {
 
 // The most numbers that a conversion may hold at once, and the bytes of intermediate values.
 constexpr std::size_t kMaximumRegisters = 1024;
-constexpr std::size_t kMaximumScratch = 16 * 1024;
+constexpr std::size_t kMaximumScratch = 16'384;
 constexpr std::size_t kMaximumBlocks = 64;
 
 struct EngineOptions {
@@ -53,7 +53,7 @@ class Converter {
   using Compiled = bool (*)(double* registers, char* const* blocks, const Converter* converter);
   enum class Code : std::uint8_t;
   struct Operation {
-    Code code;
+    Code code = {};
     std::uint8_t kind = 0;              // of the number in memory
     std::uint16_t a = 0, b = 0, c = 0;  // registers, or the blocks of a load or store
     std::uint32_t x = 0, y = 0;         // bytes from the block's begin, or an index into a table

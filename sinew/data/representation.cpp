@@ -110,6 +110,18 @@ TypePointer read_extents(Scanner& scanner, TypePointer element) {
   return element;
 }
 
+void read_members_of(Scanner& scanner, const TypePointer& type, std::set<std::string>& names,
+                     std::vector<Member>& members) {
+  do {
+    const std::string member = scanner.expect_name("a member's name");
+    if (!names.insert(member).second) {
+      scanner.fail(fmt::format("member '{}' is there twice", member), "rename one of them");
+    }
+    members.push_back({member, read_extents(scanner, type), 0, {}});
+  } while (scanner.take(","));
+  scanner.expect(";");
+}
+
 void fail_at(const Place& place, std::string what, std::string remedy) {
   throw Error(Problem{place, {}, std::move(what), std::move(remedy), Severity::kError, {}});
 }

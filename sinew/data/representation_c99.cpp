@@ -73,14 +73,7 @@ class Reader {
     std::set<std::string> names;
     while (!scanner_.take("}")) {
       const TypePointer type = read_type(depth + 1);
-      do {
-        const std::string member = scanner_.expect_name("a member's name");
-        if (!names.insert(member).second) {
-          scanner_.fail(fmt::format("member '{}' is there twice", member), "rename one of them");
-        }
-        members.push_back({member, read_extents(scanner_, type), 0, {}});
-      } while (scanner_.take(","));
-      scanner_.expect(";");
+      read_members_of(scanner_, type, names, members);
     }
     if (members.empty()) scanner_.fail("a struct needs at least one member");
     Type type = *struct_type(name.empty() ? "" : "struct " + name, std::move(members));

@@ -131,14 +131,7 @@ class IdlReader {
     while (!scanner_.take("}")) {
       while (scanner_.take("@")) scanner_.next();
       const TypePointer type = read_type(scope, depth);
-      do {
-        const std::string member = scanner_.expect_name("a member's name");
-        if (!names.insert(member).second) {
-          scanner_.fail(fmt::format("member '{}' is there twice", member), "rename one of them");
-        }
-        members.push_back({member, read_extents(scanner_, type), 0, {}});
-      } while (scanner_.take(","));
-      scanner_.expect(";");
+      read_members_of(scanner_, type, names, members);
     }
     if (members.empty()) scanner_.fail("a struct needs at least one member");
     return declared_struct(name, std::move(members));

@@ -3,6 +3,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "sinew/data/representation.h"
 #include "sinew/data/scanner.h"
@@ -26,6 +29,11 @@ Representation read_json(const RepresentationRequest& request);
 
 // [3][4] behind a type or a name, as C and IDL write arrays: `element` itself where there is none.
 TypePointer read_extents(Scanner& scanner, TypePointer element);
+
+// "a, b[3];" behind the type of a struct's members, as C and IDL write them; `names` are those that
+// the struct has already.
+void read_members_of(Scanner& scanner, const TypePointer& type, std::set<std::string>& names,
+                     std::vector<Member>& members);
 
 // Files in the source directories (not below them) whose name ends in one of `endings`, by name.
 std::vector<std::filesystem::path> files_with(const TypeSources& sources,

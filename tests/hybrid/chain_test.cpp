@@ -7,25 +7,11 @@
 #include <random>
 
 #include "hybrid_question.h"
+#include "kdl_model.h"
 #include "random_urdf.h"
-#include "urdf_model.h"
 
 namespace sinew::test {
 namespace {
-
-KDL::Frame frame(const urdf::Pose& pose) {
-  const auto q = peers::quaternion(pose.rotation);
-  return {KDL::Rotation::Quaternion(q[0], q[1], q[2], q[3]),
-          KDL::Vector(pose.position.x, pose.position.y, pose.position.z)};
-}
-
-KDL::RigidBodyInertia inertia(const urdf::Link& link) {
-  if (!link.inertial) return KDL::RigidBodyInertia::Zero();
-  const urdf::Inertial& i = *link.inertial;
-  return frame(i.origin) *
-         KDL::RigidBodyInertia(i.mass, KDL::Vector::Zero(),
-                               KDL::RotationalInertia(i.ixx, i.iyy, i.izz, i.ixy, i.ixz, i.iyz));
-}
 
 // KDL's solver divides by zero at fixed joints, so the robots here have none behind the first
 // moving one. What is fixed to the base before it becomes part of the first joint's origin.
@@ -36,7 +22,7 @@ KDL::Chain chain_of(const urdf::ModelInterface& model, std::string& tip) {
   while (link->child_joints.size() == 1) {
     const auto& j = *link->child_joints.front();
     link = link->child_links.front();
-    const KDL::Frame origin = before * frame(j.parent_to_joint_origin_transform);
+    const KDL::Frame origin = before * peers::kdl_frame(j.parent_to_joint_origin_transform);
     if (!peers::moves(j)) {
       if (chain.getNrOfJoints() > 0) throw std::runtime_error(j.name + " is fixed");
       before = origin;
@@ -46,8 +32,8 @@ KDL::Chain chain_of(const urdf::ModelInterface& model, std::string& tip) {
     const auto type =
         j.type == urdf::Joint::PRISMATIC ? KDL::Joint::TransAxis : KDL::Joint::RotAxis;
     const KDL::Vector axis = origin.M * KDL::Vector(j.axis.x, j.axis.y, j.axis.z);
-    chain.addSegment(
-        KDL::Segment(link->name, KDL::Joint(j.name, origin.p, axis, type), origin, inertia(*link)));
+    chain.addSegment(KDL::Segment(link->name, KDL::Joint(j.name, origin.p, axis, type), origin,
+                                  peers::kdl_inertia(*link)));
   }
   tip = link->name;
   return chain;

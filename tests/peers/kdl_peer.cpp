@@ -5,27 +5,13 @@
 #include <kdl/treejnttojacsolver.hpp>
 
 #include "coupled_peer.h"
-#include "urdf_model.h"
+#include "kdl_model.h"
 
 namespace sinew::peers {
 namespace {
 
-KDL::Frame frame(const urdf::Pose& pose) {
-  const auto q = quaternion(pose.rotation);
-  return {KDL::Rotation::Quaternion(q[0], q[1], q[2], q[3]),
-          KDL::Vector(pose.position.x, pose.position.y, pose.position.z)};
-}
-
-KDL::RigidBodyInertia inertia(const urdf::Link& link) {
-  if (!link.inertial) return KDL::RigidBodyInertia::Zero();
-  const urdf::Inertial& i = *link.inertial;
-  return frame(i.origin) *
-         KDL::RigidBodyInertia(i.mass, KDL::Vector::Zero(),
-                               KDL::RotationalInertia(i.ixx, i.iyy, i.izz, i.ixy, i.ixz, i.iyz));
-}
-
 KDL::Joint joint(const urdf::Joint& j) {
-  const KDL::Frame origin = frame(j.parent_to_joint_origin_transform);
+  const KDL::Frame origin = kdl_frame(j.parent_to_joint_origin_transform);
   const KDL::Vector axis = origin.M * KDL::Vector(j.axis.x, j.axis.y, j.axis.z);
   if (!moves(j)) return KDL::Joint(j.name, KDL::Joint::None);
   return KDL::Joint(j.name, origin.p, axis,
@@ -36,9 +22,10 @@ void add_children(KDL::Tree& tree, const urdf::Link& link) {
   for (const auto& j : link.child_joints) {
     for (const auto& child : link.child_links) {
       if (child->parent_joint != j) continue;
-      tree.addSegment(KDL::Segment(child->name, joint(*j),
-                                   frame(j->parent_to_joint_origin_transform), inertia(*child)),
-                      link.name);
+      tree.addSegment(
+          KDL::Segment(child->name, joint(*j), kdl_frame(j->parent_to_joint_origin_transform),
+                       kdl_inertia(*child)),
+          link.name);
       add_children(tree, *child);
     }
   }

@@ -34,6 +34,19 @@ const std::vector<Case> kCases = {{"clean/hyq.urdf", "rnea", true}, {"clean/hyq.
                                   {"hyq.urdf", "jacobian", true},   {"baxter.urdf", "rnea", false},
                                   {"baxter.urdf", "aba", false}};
 
+// In some states.
+void expect_agreement(const program::LimbProgram& limbs, const program::Program& one_by_one) {
+  backend::Interpreter interpreter(one_by_one);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<> number(-1, 1);
+  for (int state = 0; state < 20; ++state) {
+    peers::Vector in(interpreter.in_size()), expected(interpreter.out_size());
+    for (double& x : in) x = number(random);
+    interpreter.evaluate(in.data(), expected.data());
+    EXPECT_LT(difference(program::evaluate(limbs, in), expected), 1e-11);
+  }
+}
+
 TEST(Limbs, LegsAndArmsComputeSideBySideWhatTheyComputeOneByOne) {
   if (published_robots().empty()) GTEST_SKIP() << "no robots in " SINEW_SHARED_DIR "/robots";
   for (const Case& c : kCases) {
@@ -46,15 +59,7 @@ TEST(Limbs, LegsAndArmsComputeSideBySideWhatTheyComputeOneByOne) {
     // Four legs are a vector, two arms are half of one; what is left is the trunk.
     const auto lanes = limbs->operations();
     EXPECT_LT(lanes.add + lanes.multiply, (c.floating ? 0.45 : 0.6) * (count.add + count.multiply));
-    backend::Interpreter interpreter(scalar.program);
-    std::mt19937 random(2);
-    std::uniform_real_distribution<> number(-1, 1);
-    for (int state = 0; state < 20; ++state) {
-      peers::Vector in(interpreter.in_size()), expected(interpreter.out_size());
-      for (double& x : in) x = number(random);
-      interpreter.evaluate(in.data(), expected.data());
-      EXPECT_LT(difference(program::evaluate(*limbs, in), expected), 1e-11);
-    }
+    expect_agreement(*limbs, scalar.program);
   }
 }
 
@@ -74,15 +79,7 @@ TEST(Limbs, BothArmsAndBothLegsOfAHumanoidAreFound) {
       const auto lanes = limbs->operations();
       EXPECT_EQ(lanes.sincos, solver == "jacobian" ? 14U : 17U);
       EXPECT_LT(lanes.add + lanes.multiply, 0.68 * (count.add + count.multiply));
-      backend::Interpreter interpreter(scalar.program);
-      std::mt19937 random(2);
-      std::uniform_real_distribution<> number(-1, 1);
-      for (int state = 0; state < 20; ++state) {
-        peers::Vector in(interpreter.in_size()), expected(interpreter.out_size());
-        for (double& x : in) x = number(random);
-        interpreter.evaluate(in.data(), expected.data());
-        EXPECT_LT(difference(program::evaluate(*limbs, in), expected), 1e-11);
-      }
+      expect_agreement(*limbs, scalar.program);
     }
   }
 }
