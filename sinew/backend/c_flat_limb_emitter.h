@@ -1,0 +1,109 @@
+// What writes the statements of a flat function with limbs side by side; internal to `backend`. Its
+// parts:
+//   c_flat_limbs.cpp        nodes, inputs, results
+//   c_flat_limb_angles.cpp  sines and cosines
+//   c_flat_limb_memory.cpp  values that wait in memory
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "sinew/backend/c_flat_limb_steps.h"
+#include "sinew/backend/c_flat_limbs.h"
+#include "sinew/backend/c_names.h"
+#include "sinew/backend/kept_values.h"
+
+namespace sinew::backend {
+
+class LimbEmitter {
+ public:
+  LimbEmitter(const program::LimbProgram& program, const FlatLayout& layout,
+              const FlatOptions& options);
+
+  LimbBody run();
+
+ private:
+  using Node = program::Node;
+  using Ref = program::Ref;
+  using Source = program::LimbSource;
+  using Sources = std::vector<program::LimbSource>;
+
+  // Lines and names.
+  const program::LimbRegion& region() const { return program_.regions[at_]; }
+  const program::Dag& dag() const { return region().computation.dag; }
+  bool in_lanes() const { return region().lanes > 1; }
+  const std::string& type() const { return types_[at_]; }
+  void line(std::string_view text, std::uint32_t origin = program::kNoOrigin);
+  std::string number(double value) const { return scalar_number(value, options_.scalar); }
+
+  // Nodes.
+  std::string text(const Source& source);
+  template <typename Lane>
+  std::string vector(Lane lane) const;
+  std::string zero();
+  std::string input(const Node& node);
+  std::optional<std::string> same_vector(const Sources& sources);
+  const std::string& value(std::uint32_t i);
+  std::string value(Ref ref) { return (ref.negative() ? "-" : "") + value(ref.node()); }
+  void compute(std::uint32_t i, const Node& node);
+  std::string express(const Node& n);
+  template <typename Formula>
+  std::string lane_by_lane(const std::vector<Ref>& operands, Formula formula);
+
+  // Results.
+  void find_results();
+  void write(std::uint32_t k);
+  std::size_t zeros_from(std::size_t at) const;
+
+  // Sines and cosines.
+  void take_sines(std::uint32_t angle, const std::string& sines, const std::string& cosines,
+                  int offset);
+  void sine_of(std::uint32_t angle);
+  void sines_of_inputs();
+
+  // Values that wait in memory (c_flat_limb_memory.cpp).
+  void declare_kept();
+  void point_to(const char* pointer);
+  void begin_step();
+  void end_step();
+  void wait_in_memory(std::uint32_t node);
+  const std::string& name_of(std::size_t region, std::uint32_t node);
+  std::string lane_of(std::size_t region, std::uint32_t node, std::uint32_t lane);
+
+  const program::LimbProgram& program_;
+  const FlatLayout& layout_;
+  const FlatOptions& options_;
+  std::string upper_, scalar_, suffix_;
+  std::vector<std::string> types_;               // of each region's values
+  std::vector<std::vector<std::string>> names_;  // [region][node]: or the text of a constant
+  std::vector<std::vector<bool>> live_;
+  std::vector<std::vector<std::vector<std::uint32_t>>> results_of_;  // [region][node]
+  std::vector<std::uint32_t> later_;  // results that no region computes
+  std::size_t at_ = 0;                // the region
+  std::size_t groups_ = 0;
+
+  // What is read from memory wherever it is used.
+  struct InMemory {
+    std::string name, array;
+    int place = 0;
+  };
+  LimbNodes nodes_;
+  KeptValues kept_;  // empty where no value need wait
+  std::size_t step_ = 0;
+  bool sines_in_memory_ = false;
+  std::unordered_map<std::uint32_t, InMemory> in_memory_;
+  std::unordered_map<std::uint32_t, std::string*> waiting_;   // names of values that are kept
+  std::vector<std::pair<std::size_t, std::uint32_t>> named_;  // read in this stage
+
+  std::map<unsigned, std::string> zeros_;  // by width: a vector of zeros
+  CNames given_ = {"in", "out", "angle", "sine", "cosine"};
+  LimbBody body_;
+};
+
+}  // namespace sinew::backend

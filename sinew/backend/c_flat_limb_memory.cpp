@@ -1,0 +1,90 @@
+// Values of limbs and trunk that wait in memory, and the stages in which they are read (as
+// c_flat_stages.cpp has them for functions without limbs).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "sinew/backend/c_flat_limb_emitter.h"
+
+namespace sinew::backend {
+
+namespace {
+
+// "kept + 3"
+std::string offset(const std::string& array, int place) {
+  return fmt::format("{} {} {}", array, place < 0 ? "-" : "+", std::abs(place));
+}
+
+}  // namespace
+
+void LimbEmitter::declare_kept() {
+  for (const char* name : {"kept", "kept_numbers", "sines", "cosines"}) given_.take(name);
+  line(fmt::format("{0}_ALIGNED {1} kept_numbers[{2}], *kept = kept_numbers + {3};", upper_,
+                   scalar_, std::max(kept_.size, kNearNumbers), kNearNumbers));
+  point_to("kept");
+}
+
+// From here on a compiler cannot know what the pointer points to.
+void LimbEmitter::point_to(const char* pointer) {
+  line(fmt::format("{}_AGAIN({});", upper_, pointer));
+}
+
+void LimbEmitter::begin_step() {
+  if (!kept_.any() || step_ == 0 || step_ % kStage != 0) return;
+  body_.code.add("");
+  point_to("kept");
+  if (sines_in_memory_) {
+    point_to("sines");
+    point_to("cosines");
+  }
+  for (const auto& [region, node] : named_) names_[region][node].clear();
+  named_.clear();
+}
+
+void LimbEmitter::end_step() {
+  if (!kept_.any()) return;
+  for (const std::uint32_t value : kept_.leaving[step_]) waiting_.at(value)->clear();
+  ++step_;
+}
+
+// Writes a value that has just been computed where it will be read.
+void LimbEmitter::wait_in_memory(std::uint32_t node) {
+  const std::uint32_t value = nodes_.of(at_, node);
+  if (!kept_.any() || kept_.slot[value] == KeptValues::kNoSlot) return;
+  const std::string& name = names_[at_][node];
+  const int place = static_cast<int>(kept_.slot[value]) - int{kNearNumbers};
+  if (in_lanes()) {
+    line(fmt::format("memcpy({0}, &{1}, sizeof {1});", offset("kept", place), name));
+  } else {
+    line(fmt::format("KEPT({}) = {};", place, name));
+  }
+  in_memory_[value] = {name, "kept", place};
+  waiting_[value] = &names_[at_][node];
+}
+
+// The name of a node of any region that has been computed, which may wait in memory.
+const std::string& LimbEmitter::name_of(std::size_t region, std::uint32_t node) {
+  std::string& name = names_[region][node];
+  if (!name.empty()) return name;
+  const auto& [base, array, place] = in_memory_.at(nodes_.of(region, node));
+  name = given_.unique(base);
+  if (const std::uint32_t lanes = program_.regions[region].lanes; lanes > 1) {
+    line(fmt::format("{0} {1}; memcpy(&{1}, {2}, sizeof {1});", types_[region], name,
+                     offset(array, place)));
+  } else {
+    line(fmt::format("const {} {} = {}[{}];", scalar_, name, array, place));
+  }
+  named_.emplace_back(region, node);
+  return name;
+}
+
+// One lane of it.
+std::string LimbEmitter::lane_of(std::size_t region, std::uint32_t node, std::uint32_t lane) {
+  if (program_.regions[region].lanes == 1) return name_of(region, node);
+  if (!names_[region][node].empty()) return fmt::format("{}[{}]", names_[region][node], lane);
+  const InMemory& from = in_memory_.at(nodes_.of(region, node));
+  return fmt::format("{}[{}]", from.array, from.place + static_cast<int>(lane));
+}
+
+}  // namespace sinew::backend

@@ -1,0 +1,151 @@
+// Stages of a long flat function of one sample. What waits in memory is read in each stage that
+// needs it, and by nothing that a compiler could carry in a register from one stage to the next.
+//
+// In memory lie inputs, sines and cosines, the values that keep_values() chooses, and constants: a
+// constant of a table whose address is in a register takes three bytes less than one that is
+// addressed from the instruction.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "sinew/backend/c_flat_emitter.h"
+
+namespace sinew::backend {
+
+using program::Node;
+using program::Op;
+using program::Ref;
+
+namespace {
+
+// Constants that one pointer reaches, half of them to either side. A node uses four at most.
+constexpr std::size_t kWindow = 2 * kNearNumbers - 4;
+
+}  // namespace
+
+// The steps are those of run(): one for each node, one for each group of angles, and the end.
+void FlatEmitter::plan_stages(const AngleGroups& groups) {
+  if (options_.form == FlatForm::kThread || groups.after.size() > options_.maximum_statements) {
+    return;
+  }
+  KeptSteps steps(dag_.size());
+  const auto read_node = [&](std::uint32_t i) {
+    const Op op = dag_.node(i).op;
+    if (program::arity(op) > 0 && op != Op::kSin && op != Op::kCos) steps.read(i);
+  };
+  const auto read = [&](Ref ref) { read_node(ref.node()); };
+  const auto node = [&](std::uint32_t i) {
+    const Node& n = dag_.node(i);
+    if (n.op == Op::kSin || n.op == Op::kCos) return;
+    const int operands = program::arity(n.op);
+    if (n.op == Op::kSelect) {
+      read(dag_.node(n.a).a);
+      read(dag_.node(n.a).b);
+    } else if (operands > 0) {
+      read(n.a);
+    }
+    if (operands > 1) read(n.b);
+    if (operands > 2) read(n.c);
+    steps.define(i);
+    steps.end();
+  };
+  for (const AngleGroup& group : groups.groups) {
+    for (const std::uint32_t i : group.before) node(i);
+    for (const std::uint32_t angle : group.angles) read_node(angle);
+    steps.end();
+  }
+  for (const std::uint32_t i : groups.after) node(i);
+  for (const std::uint32_t k : later_) read(computation_.results[k]);
+  steps.end();
+  kept_ = keep_values(steps);
+  stages_ = kept_.any() && !block_form_;
+  if (stages_) declare_kept();
+}
+
+void FlatEmitter::declare_kept() {
+  for (const char* name : {"kept_numbers", "number"}) given_.take(name);
+  line(fmt::format("{0}_ALIGNED {1} kept_numbers[{2}], *kept = kept_numbers + {3};", upper_,
+                   scalar_, std::max(kept_.size, kNearNumbers), kNearNumbers));
+  line(fmt::format("const {} *number;", scalar_));
+  pointers_.push_back("kept");
+  point_to("kept");
+  new_constants();
+}
+
+// From here on a compiler cannot know what the pointer points to.
+void FlatEmitter::point_to(const std::string& pointer) {
+  line(fmt::format("{}_AGAIN({});", upper_, pointer));
+}
+
+void FlatEmitter::begin_step() {
+  if (!stages_) return;
+  if (step_ > 0 && step_ % kStage == 0) {
+    block_->add("");
+    for (const std::string& pointer : pointers_) point_to(pointer);
+    for (const std::uint32_t node : named_) names_[node].clear();
+    named_.clear();
+  }
+  if (window_.size() >= kWindow) new_constants();
+}
+
+void FlatEmitter::end_step() {
+  if (!stages_) return;
+  for (const std::uint32_t node : kept_.leaving[step_]) names_[node].clear();
+  ++step_;
+}
+
+void FlatEmitter::new_constants() {
+  for (const std::uint32_t node : window_) constants_[node].clear();
+  window_.clear();
+  line(fmt::format("number = {}_{}_table + {};", prefix_, options_.of,
+                   table_.size() + kNearNumbers));
+  point_to("number");
+}
+
+std::string FlatEmitter::constant(std::uint32_t node) {
+  const double value = dag_.node(node).value;
+  std::string text = number(value);
+  if (value == 2.0) return text;  // a sum
+  const int place = static_cast<int>(window_.size()) - int{kNearNumbers};
+  window_.push_back(node);
+  table_.push_back(text);
+  return fmt::format("NUMBER({}, {})", place, text);
+}
+
+// Writes a value that has just been computed where it will be read.
+void FlatEmitter::wait_in_memory(std::uint32_t node) {
+  if (!stages_ || kept_.slot[node] == KeptValues::kNoSlot) return;
+  const int place = static_cast<int>(kept_.slot[node]) - int{kNearNumbers};
+  line(fmt::format("KEPT({}) = {};", place, names_[node]));
+  in_memory_[node] = {names_[node], fmt::format("kept[{}]", place)};
+}
+
+void FlatEmitter::read_again(std::uint32_t node) {
+  const InMemory& from = in_memory_.at(node);
+  names_[node] = given_.unique(from.name);
+  declare(scalar_, names_[node], from.place, dag_.node(node).origin);
+  named_.push_back(node);
+}
+
+// A product that waits in memory is rounded before it is added to anything; so it is in a block,
+// whose values do not wait: a sample has the same bits in either.
+bool FlatEmitter::rounds_product(std::uint32_t node) const {
+  return block_form_ && kept_.any() && kept_.slot[node] != KeptValues::kNoSlot &&
+         dag_.node(node).op == Op::kMultiply;
+}
+
+void FlatEmitter::declare_constants() {
+  // Pointers may not leave the table.
+  const std::size_t least = table_.size() - window_.size() + kNearNumbers;
+  if (table_.size() < least) table_.resize(least, "0");
+  const std::string table = options_.of + "_table";
+  result_.part_names.push_back(table);
+  std::string list;
+  for (const std::string& text : table_) list += (list.empty() ? "" : ", ") + text;
+  result_.parts.add("/* Constants of the function below, in the order of their use. */");
+  result_.parts.add(
+      fmt::format("static const {} {}_{}[] = {{ {} }};", scalar_, prefix_, table, list));
+}
+
+}  // namespace sinew::backend

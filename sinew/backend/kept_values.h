@@ -1,0 +1,62 @@
+// Which values of a long straight-line function wait in memory until they are used again.
+//
+// Dynamics of an arm have three times as many values alive as a processor has registers. A compiler
+// that has to find room spends a fifth of the code on moving values about, so we choose: whenever
+// there are more than `registers`, the value that is read again last makes room (Belady 1966). It
+// is written to an array when it is computed, and all later reads are memory operands. Internal to
+// `backend`.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace sinew::backend {
+
+// Processors have 16 registers or, with AVX-512, 32, of which the compiler needs some itself.
+inline constexpr std::uint32_t kKeptRegisters = 28;
+
+// Nodes in a stage: within it, what is read from memory may stay in a register, and no longer.
+inline constexpr std::uint32_t kStage = 40;
+
+// Neighbours in memory that an instruction reaches with a displacement of one byte to either side
+// of a pointer, without AVX-512's scaling: half of them, in numbers of eight bytes.
+inline constexpr std::uint32_t kNearNumbers = 16;
+
+// What is computed, step after step.
+class KeptSteps {
+ public:
+  explicit KeptSteps(std::uint32_t values) : widths_(values, 1) {}
+
+  // The present step computes this value, or reads it, whoever has computed it.
+  void define(std::uint32_t value) { defines_.push_back(value); }
+  void read(std::uint32_t value) { reads_.push_back(value); }
+  void end() {
+    ends_.push_back(
+        {static_cast<std::uint32_t>(defines_.size()), static_cast<std::uint32_t>(reads_.size())});
+  }
+  // Numbers that a value consists of; 1 unless said.
+  void set_width(std::uint32_t value, std::uint8_t width) { widths_[value] = width; }
+
+ private:
+  friend class Keeper;
+  struct End {
+    std::uint32_t defines, reads;  // before it, of all steps
+  };
+  std::vector<std::uint8_t> widths_;
+  std::vector<std::uint32_t> defines_, reads_;
+  std::vector<End> ends_;
+};
+
+struct KeptValues {
+  static constexpr std::uint32_t kNoSlot = 0xffffffffU;
+
+  std::vector<std::uint32_t> slot;  // of a value: its place in the array; kNoSlot: never there
+  std::vector<std::vector<std::uint32_t>> leaving;  // after each step: what is read there from now
+  std::uint32_t size = 0;                           // numbers in the array
+
+  bool any() const { return size > 0; }
+};
+
+KeptValues keep_values(const KeptSteps& steps, std::uint32_t registers = kKeptRegisters);
+
+}  // namespace sinew::backend
