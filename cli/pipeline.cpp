@@ -212,6 +212,9 @@ graph::Id algorithm_of(Models& models, const synthesis::Query& asked, std::vecto
   synthesis::Synthesis synthesis = synthesised(models, query);
   for (const std::string& note : synthesis.notes) print_note(note);
   if (why != nullptr) *why = std::move(synthesis.why);
+  models.made.reset();
+  if (synthesis.model)
+    models.made = Models::Made{std::move(*synthesis.model), models.store.view().stamp()};
   return synthesis.algorithm;
 }
 
@@ -237,7 +240,10 @@ program::Program program_of(Models& models, const ModelOptions& files, const Que
 }
 
 program::Program lowered(const Models& models, graph::Id algorithm, const std::string& name) {
-  return program::lower(models.store.view(), algorithm, name, &models.places);
+  const graph::View view = models.store.view();
+  if (models.made && models.made->model.id == algorithm && models.made->version == view.stamp())
+    return program::lower(models.made->model, view.terms(), name);
+  return program::lower(view, algorithm, name, &models.places);
 }
 
 void note_held(const program::Program& program) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "request.h"
+#include "sinew/algorithm/model.h"
 #include "sinew/base/error.h"
 #include "sinew/graph/places.h"
 #include "sinew/graph/store.h"
@@ -20,6 +22,13 @@ struct Models {
   graph::Store store;
   graph::Places places;
   bool lenient = false;  // ModelOptions::lenient
+  // The algorithm that was made last, which need not be read from the graph as long as the graph is
+  // what it was then.
+  struct Made {
+    algorithm::Algorithm model;
+    graph::Stamp version;
+  };
+  std::optional<Made> made;
 };
 
 // Reads all files; warnings go to standard error.

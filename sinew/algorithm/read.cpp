@@ -65,7 +65,7 @@ class Reader {
         error(result_.id, fmt::format("its period is {}", text(period)), "seconds, above zero");
     }
     read_schedule();
-    put_in_order();
+    put_in_order(result_);
     return std::move(result_);
   }
 
@@ -342,40 +342,6 @@ class Reader {
     }
   }
 
-  // Blocks: inputs, then outputs, each by index and name; then the others as the schedule meets
-  // them. Closures: as scheduled; those that are not, after them by IRI.
-  void put_in_order() {
-    std::vector<std::uint32_t> order, seen(result_.blocks.size(), 0);
-    const auto take = [&](std::uint32_t block) {
-      if (seen[block]++ == 0) order.push_back(block);
-    };
-    const auto take_sorted = [&](auto&& wanted) {
-      std::vector<std::uint32_t> some;
-      for (std::uint32_t i = 0; i < result_.blocks.size(); ++i)
-        if (wanted(result_.blocks[i])) some.push_back(i);
-      std::sort(some.begin(), some.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const Block &x = result_.blocks[a], &y = result_.blocks[b];
-        return std::tie(x.index, x.name) < std::tie(y.index, y.name);
-      });
-      for (const std::uint32_t block : some) take(block);
-    };
-    take_sorted([](const Block& block) { return block.role == Role::kInput; });
-    take_sorted([](const Block& block) { return block.output; });
-    for (const std::uint32_t closure : result_.schedule)
-      for (const std::uint32_t block : result_.closures[closure].arguments) take(block);
-    take_sorted([](const Block&) { return true; });
-
-    std::vector<std::uint32_t> place(order.size());
-    std::vector<Block> blocks(order.size());
-    for (std::uint32_t at = 0; at < order.size(); ++at) {
-      place[order[at]] = at;
-      blocks[at] = std::move(result_.blocks[order[at]]);
-    }
-    result_.blocks = std::move(blocks);
-    for (Closure& closure : result_.closures)
-      for (std::uint32_t& argument : closure.arguments) argument = place[argument];
-  }
-
   static constexpr std::string_view kTriggerChain =
       "https://comp-rob2b.github.io/metamodels/algorithm#trigger-chain";
 
@@ -403,6 +369,38 @@ std::vector<Id> find_algorithms(const View& view) {
     return true;
   });
   return found;
+}
+
+void put_in_order(Algorithm& model) {
+  std::vector<std::uint32_t> order, seen(model.blocks.size(), 0);
+  const auto take = [&](std::uint32_t block) {
+    if (seen[block]++ == 0) order.push_back(block);
+  };
+  const auto take_sorted = [&](auto&& wanted) {
+    std::vector<std::uint32_t> some;
+    for (std::uint32_t i = 0; i < model.blocks.size(); ++i)
+      if (wanted(model.blocks[i])) some.push_back(i);
+    std::sort(some.begin(), some.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const Block &x = model.blocks[a], &y = model.blocks[b];
+      return std::tie(x.index, x.name) < std::tie(y.index, y.name);
+    });
+    for (const std::uint32_t block : some) take(block);
+  };
+  take_sorted([](const Block& block) { return block.role == Role::kInput; });
+  take_sorted([](const Block& block) { return block.output; });
+  for (const std::uint32_t closure : model.schedule)
+    for (const std::uint32_t block : model.closures[closure].arguments) take(block);
+  take_sorted([](const Block&) { return true; });
+
+  std::vector<std::uint32_t> place(order.size());
+  std::vector<Block> blocks(order.size());
+  for (std::uint32_t at = 0; at < order.size(); ++at) {
+    place[order[at]] = at;
+    blocks[at] = std::move(model.blocks[order[at]]);
+  }
+  model.blocks = std::move(blocks);
+  for (Closure& closure : model.closures)
+    for (std::uint32_t& argument : closure.arguments) argument = place[argument];
 }
 
 Algorithm read(const View& view, Id algorithm, Report& report, const graph::Places* places) {

@@ -14,6 +14,10 @@ inline constexpr std::size_t kMaximumListLength = 1'000'000;
 // The algorithms of the store: every node with type sa:Algorithm.
 std::vector<graph::Id> find_algorithms(const graph::View& view);
 
+// The order of what `read` returns. Blocks: inputs, then outputs, each by index and name; then the
+// others as the schedule meets them.
+void put_in_order(Algorithm& model);
+
 // Reads one algorithm from its graph. What is missing or of the wrong kind (an unknown operator or
 // quantity, a port that is not connected, a broken list) is reported; what came through is
 // returned. The order of blocks and closures is that of the schedule, inputs first, so it does not

@@ -1,10 +1,12 @@
 #include "sinew/program/dead_closures.h"
 
+#include <utility>
+
 #include "sinew/program/kernels.h"
 
 namespace sinew::program {
 
-Program without_dead_closures(const Program& program) {
+Program without_dead_closures(Program program) {
   std::vector<bool> needed(program.variables.size(), false);
   for (std::size_t i = 0; i < needed.size(); ++i) {
     const Variable& v = program.variables[i];
@@ -23,23 +25,23 @@ Program without_dead_closures(const Program& program) {
   }
 
   Program result;
-  result.name = program.name;
-  result.iri = program.iri;
+  result.name = std::move(program.name);
+  result.iri = std::move(program.iri);
   std::vector<std::uint32_t> moved(program.variables.size(), 0);
   for (std::size_t i = 0; i < needed.size(); ++i) {
     if (!needed[i]) continue;
     moved[i] = static_cast<std::uint32_t>(result.variables.size());
-    result.variables.push_back(program.variables[i]);
+    result.variables.push_back(std::move(program.variables[i]));
   }
   for (std::size_t s = 0; s < live.size(); ++s) {
     if (!live[s]) continue;
-    Closure closure = program.closures[program.schedule[s]];
+    Closure closure = std::move(program.closures[program.schedule[s]]);
     for (std::uint32_t& argument : closure.arguments) argument = moved[argument];
     result.schedule.push_back(static_cast<std::uint32_t>(result.closures.size()));
     result.closures.push_back(std::move(closure));
   }
   // Rows, columns and entries are outputs and inputs, which all stay.
-  result.derivatives = program.derivatives;
+  result.derivatives = std::move(program.derivatives);
   for (Derivative& derivative : result.derivatives) {
     for (std::uint32_t& variable : derivative.of) variable = moved[variable];
     for (std::uint32_t& variable : derivative.by) variable = moved[variable];

@@ -76,7 +76,7 @@ Program lower(const algorithm::Algorithm& model, const graph::Terms& terms, std:
                                 text(terms, closure.step), text(terms, closure.about),
                                 closure.arguments});
   }
-  return without_dead_closures(program);
+  return without_dead_closures(std::move(program));
 }
 
 }  // namespace sinew::program

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sinew/algorithm/attach.h"
+#include "sinew/algorithm/read.h"
 #include "sinew/base/error.h"
 #include "sinew/synthesis/asked.h"
 #include "sinew/synthesis/context.h"
@@ -283,6 +284,10 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   write_driver_list(context, transaction);
   transaction.clear(context.slots_graph());
   builder.finish();
+  if (!control) {
+    result.model = builder.algorithm();
+    algorithm::put_in_order(*result.model);
+  }
   if (control && control->period_s)
     transaction.add({result.algorithm, terms.iri(std::string(kAlgorithmNamespace) + "period"),
                      terms.real(*control->period_s), result.algorithm});

@@ -1,9 +1,11 @@
 // From a normalised tree and a query to an algorithm model in its own named graph.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sinew/algorithm/model.h"
 #include "sinew/graph/places.h"
 #include "sinew/graph/store.h"
 #include "sinew/synthesis/query.h"
@@ -13,6 +15,9 @@ namespace sinew::synthesis {
 
 struct Synthesis {
   graph::Id algorithm;             // the algorithm's node, and the name of its graph
+  // What that graph says, as algorithm::read would give it; nothing for a task's, to which more
+  // than the steps is added.
+  std::optional<algorithm::Algorithm> model;
   std::vector<std::string> why;    // a line for each step, in the order of the sweeps
   std::vector<std::string> notes;  // what a user should know: no gravity stated, ...
   TraversalCounts counts;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "sinew/program/dag/evaluate.h"
 #include "sinew/program/passes/latency.h"
@@ -29,16 +30,23 @@ class Scheduler {
         live_(live_nodes(computation)),
         tails_(times_to_the_end(computation)) {
     const std::uint32_t n = dag_.size();
-    users_.resize(n);
     missing_.assign(n, 0);
     unread_.assign(n, 0);
     for (std::uint32_t i = 0; i < n; ++i) {
       if (!live_[i]) continue;
       for_each_operand(dag_.node(i), [&](std::uint32_t operand) {
-        users_[operand].push_back(i);
         ++unread_[operand];
         ++missing_[i];
       });
+    }
+    users_.from.assign(n + 1, 0);
+    for (std::uint32_t i = 0; i < n; ++i) users_.from[i + 1] = users_.from[i] + unread_[i];
+    users_.all.resize(users_.from[n]);
+    std::vector<std::uint32_t> next = users_.from;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      if (!live_[i]) continue;
+      for_each_operand(dag_.node(i),
+                       [&](std::uint32_t operand) { users_.all[next[operand]++] = i; });
     }
   }
 
@@ -68,6 +76,14 @@ class Scheduler {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   static constexpr int kLeastGrowth = -3;  // frees three, needs none
   static constexpr int kGrowths = 5;       // up to 1
+
+  // Of each node, one after the other.
+  struct Users {
+    std::vector<std::uint32_t> all, from;
+    std::span<const std::uint32_t> operator[](std::uint32_t i) const {
+      return {all.data() + from[i], from[i + 1] - from[i]};
+    }
+  };
 
   enum class State : std::uint8_t { kWaiting, kReady, kDone };
 
@@ -140,7 +156,7 @@ class Scheduler {
   const Dag& dag_;
   std::vector<bool> live_;
   std::vector<double> tails_;
-  std::vector<std::vector<std::uint32_t>> users_;
+  Users users_;
   std::vector<std::uint32_t> missing_;  // operands that have not been scheduled
   std::vector<std::uint32_t> unread_;   // users that have not been scheduled
   std::vector<int> growth_;             // values more that are live after the node
