@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "sinew/algorithm/read.h"
 #include "sinew/synthesis/read_query.h"
 #include "small_robot.h"
@@ -67,6 +69,31 @@ TEST_F(SynthesiseTest, HandsOutForcesInJointOrderWithTheUnitOfTheJoint) {
     }
     if (block.name == "force.three") {
       EXPECT_EQ(block.unit, "N");
+    }
+  }
+}
+
+TEST_F(SynthesiseTest, HandsOutInMemoryWhatTheGraphSays) {
+  for (const char* solver : {"fpk", "jacobian", "rnea", "aba", "crba", "energy"}) {
+    const Synthesis synthesis = synthesise(store_, named_query(solver));
+    const algorithm::Algorithm graph = algorithm::read_checked(store_.view(), synthesis.algorithm);
+    ASSERT_TRUE(synthesis.model.has_value());
+    const algorithm::Algorithm& memory = *synthesis.model;
+    EXPECT_EQ(memory.id, graph.id);
+    EXPECT_EQ(memory.schedule, graph.schedule);
+    const auto facts = [](const Block& b) {
+      return std::tie(b.id, b.slot, b.name, b.quantity, b.represents, b.symbols, b.unit, b.role,
+                      b.output, b.held, b.index, b.size, b.value);
+    };
+    ASSERT_EQ(memory.blocks.size(), graph.blocks.size());
+    for (std::size_t i = 0; i < graph.blocks.size(); ++i)
+      EXPECT_EQ(facts(memory.blocks[i]), facts(graph.blocks[i])) << solver << ", block " << i;
+    ASSERT_EQ(memory.closures.size(), graph.closures.size());
+    for (std::size_t i = 0; i < graph.closures.size(); ++i) {
+      const algorithm::Closure &a = memory.closures[i], &b = graph.closures[i];
+      EXPECT_EQ(std::tie(a.id, a.op, a.arguments, a.step, a.about),
+                std::tie(b.id, b.op, b.arguments, b.step, b.about))
+          << solver << ", closure " << i;
     }
   }
 }
