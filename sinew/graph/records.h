@@ -168,7 +168,7 @@ struct Records {
             const Posting& posting = postings[slot.number()];
             return pair == pair_of(posting);
           }
-          const Triple& triple = triples[slot.number()];
+          const Triple& triple = triples.listed(slot.number());
           return load(triple.added) <= version && pair == pair_of(triple, list);
         },
         at);
@@ -285,7 +285,7 @@ struct Records {
       }
     }
     for (std::uint32_t at = best.head; at != 0;) {
-      const Triple& triple = triples[at];
+      const Triple& triple = triples.listed(at);
       if (load(triple.added) > version) return 0;
       if (triple.object == object && triple.subject == subject && triple.predicate == predicate &&
           still_there(triple, version)) {

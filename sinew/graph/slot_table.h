@@ -67,10 +67,9 @@ class SlotTable {
     const std::uint64_t slot = word(hash, number, marked);
     std::atomic<std::uint64_t>& free = present().slots[at];
     if (free.load(std::memory_order_relaxed) == 0) {
-      if (used_ >= limit_) {
-        grow();
-        ++used_;
-        return place(present(), slot);
+      if (used_ >= limit_) [[unlikely]] {
+        grow_for(slot);
+        return;
       }
       ++used_;
     }
@@ -147,16 +146,26 @@ class SlotTable {
   }
   Table& present() const { return *table_.load(std::memory_order_relaxed); }
   void publish() { table_.store(tables_.back().get(), std::memory_order_release); }
+  [[gnu::noinline]] void grow_for(std::uint64_t slot) {
+    grow();
+    ++used_;
+    place(present(), slot);
+  }
   void grow() {
     const Table* old = table_.load(std::memory_order_relaxed);
     install(old->mask <= kLargeMask ? old->mask * 4 + 3 : old->mask * 2 + 1);
     Table& made = *tables_.back();
     used_ = 0;
-    for (std::size_t at = 0; at <= old->mask; ++at) {
-      const std::uint64_t slot = old->slots[at].load(std::memory_order_relaxed);
-      if (static_cast<std::uint32_t>(slot) == 0) continue;
-      place(made, slot);
-      ++used_;
+    // Which slots are free can't be guessed, so the others are collected without a branch.
+    std::uint64_t taken[kFirstMask + 1];
+    for (std::size_t begin = 0; begin <= old->mask; begin += kFirstMask + 1) {
+      std::uint32_t count = 0;
+      for (std::size_t at = begin; at <= begin + kFirstMask; ++at) {
+        taken[count] = old->slots[at].load(std::memory_order_relaxed);
+        count += static_cast<std::uint32_t>(taken[count]) != 0;
+      }
+      for (std::uint32_t at = 0; at < count; ++at) place(made, taken[at]);
+      used_ += count;
     }
     publish();
   }

@@ -163,7 +163,9 @@ Transaction::Transaction(StoreData& data) : data_(&data) {
 }
 
 Transaction::Transaction(Transaction&& other) noexcept
-    : data_(std::exchange(other.data_, nullptr)), version_(other.version_) {}
+    : data_(std::exchange(other.data_, nullptr)),
+      version_(other.version_),
+      known_terms_(other.known_terms_) {}
 
 Transaction::~Transaction() {
   if (!data_) return;
@@ -194,7 +196,10 @@ bool has_terms_of(std::uint32_t known, const Quad& quad) {
 
 bool Transaction::add(const Quad& quad) {
   StoreData& in = data();
-  if (!has_terms_of(static_cast<std::uint32_t>(in.terms->size()), quad)) refuse_terms();
+  if (!has_terms_of(known_terms_, quad)) [[unlikely]] {
+    known_terms_ = static_cast<std::uint32_t>(in.terms->size());
+    if (!has_terms_of(known_terms_, quad)) refuse_terms();
+  }
   return in.core->writer.add(quad, version_);
 }
 

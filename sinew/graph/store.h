@@ -96,6 +96,7 @@ class Transaction {
 
   StoreData* data_;
   Version version_;
+  std::uint32_t known_terms_ = 0;  // there were so many terms at least
 };
 
 class Store {

@@ -162,7 +162,7 @@ class Steps {
         several = &records_.postings[slot.number()];
         return pair == Records::pair_of(*several);
       }
-      triple = &records_.triples[slot.number()];
+      triple = &records_.triples.listed(slot.number());
       return load(triple->added) <= version_ && pair == Records::pair_of(*triple, list);
     };
     const SlotTable::Slot found =
@@ -172,7 +172,7 @@ class Steps {
       return !records_.still_there(*triple, version_) || visit(Id{take(*triple)});
     }
     for (std::uint32_t at = load(several->chain.head); at != 0;) {
-      triple = &records_.triples[at];
+      triple = &records_.triples.listed(at);
       if (load(triple->added) > version_) break;
       if (records_.still_there(*triple, version_) && !visit(Id{take(*triple)})) return false;
       at = load(triple->next[list]);
@@ -199,7 +199,7 @@ bool View::visit_triples(Id subject, Id predicate, Id object, Visit&& visit) con
   if (!subject && !predicate && !object) {
     const std::uint32_t end = load(in.triple_count);
     for (std::uint32_t at = 1; at <= end; ++at) {
-      const Triple& triple = in.triples[at];
+      const Triple& triple = in.triples.listed(at);
       if (load(triple.added) > at_version) break;
       if (!in.still_there(triple, at_version)) continue;
       if (!visit(triple)) return false;
@@ -210,7 +210,7 @@ bool View::visit_triples(Id subject, Id predicate, Id object, Visit&& visit) con
   const Records::Run run = in.run(subject.value, predicate.value, object.value, at_version, list);
   const bool between = subject && object;
   for (std::uint32_t at = run.head; at != 0;) {
-    const Triple& triple = in.triples[at];
+    const Triple& triple = in.triples.listed(at);
     if (load(triple.added) > at_version) break;
     const bool matches =
         !between || (triple.subject == subject.value && triple.object == object.value);
@@ -231,7 +231,7 @@ bool View::visit_members(const Records& in, const Graph& graph, Version version,
       }
       at = load(membership.next_in_graph);
     } else {
-      const Triple& triple = in.triples[at];
+      const Triple& triple = in.triples.listed(at);
       if (load(triple.added) > version) break;
       if (Records::still_in_graph(triple, version) && !visit(triple)) return false;
       at = load(triple.next_in_graph);

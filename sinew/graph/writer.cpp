@@ -50,7 +50,10 @@ void Writer::count_pair(List list, std::uint32_t predicate, int by) {
 inline void Writer::append(Chain& chain, List list, std::uint32_t triple,
                            std::uint32_t& tail_before) {
   tail_before = chain.tail;
-  store(chain.tail == 0 ? chain.head : records.triples[chain.tail].next[list], triple);
+  // Chosen without a branch, which for objects would be guessed wrong every few times.
+  std::uint32_t* link = &records.triples[chain.tail].next[list];
+  if (chain.tail == 0) link = &chain.head;
+  store(*link, triple);
   chain.tail = triple;
   store(chain.count, chain.count + 1);
 }
@@ -66,13 +69,16 @@ inline Writer::PairPlace Writer::place(List list, const PairKey& key, Version ve
   return place;
 }
 
-bool Writer::append_pair(List list, const PairKey& key, const PairPlace& place,
-                         std::uint32_t triple, std::uint32_t& tail_before) {
+inline bool Writer::append_pair(List list, const PairKey& key, const PairPlace& place,
+                                std::uint32_t triple, std::uint32_t& tail_before) {
+  if (place.found) return append_to_pair(list, key, place, triple, tail_before);
+  records.pairs[list].insert(place.at, key.hash, triple);
+  return true;
+}
+
+bool Writer::append_to_pair(List list, const PairKey& key, const PairPlace& place,
+                            std::uint32_t triple, std::uint32_t& tail_before) {
   SlotTable& table = records.pairs[list];
-  if (!place.found) {
-    table.insert(place.at, key.hash, triple);
-    return true;
-  }
   std::uint32_t number = place.found.number();
   if (!place.found.marked()) {
     const std::uint32_t only = number;

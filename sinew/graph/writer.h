@@ -96,6 +96,9 @@ class Writer {
   // Whether the pair's list was empty before.
   bool append_pair(List list, const PairKey& key, const PairPlace& place, std::uint32_t triple,
                    std::uint32_t& tail_before);
+  // Of a pair that has a triple already.
+  bool append_to_pair(List list, const PairKey& key, const PairPlace& place, std::uint32_t triple,
+                      std::uint32_t& tail_before);
   // The records of a triple's terms.
   struct Ends {
     Node& subject;
