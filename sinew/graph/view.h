@@ -46,10 +46,14 @@ class MatchScope {
   ~MatchScope() { --depth_; }
   MatchScope(const MatchScope&) = delete;
   MatchScope& operator=(const MatchScope&) = delete;
-  static bool matching() { return depth_ > 0; }
+  static bool matching() { return depth_ > kOutside; }
 
  private:
-  inline static constinit thread_local int depth_ = 0;
+  // Not 0, because linkers (LLD 14, mold 1.10) mistake where a program's pages that become
+  // read-only begin if all that its threads own starts as zeros and those pages begin with a page;
+  // such a program is refused by the system.
+  static constexpr int kOutside = 1;
+  inline static constinit thread_local int depth_ = kOutside;
 };
 
 // Cheap to copy; valid as long as what it came from.
