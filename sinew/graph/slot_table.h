@@ -56,12 +56,14 @@ class SlotTable {
     }
   }
 
+  // Asks for where a key of this hash is or would be, which will be written soon.
+  void prefetch(std::uint32_t hash) const {
+    const Table* table = table_.load(std::memory_order_acquire);
+    __builtin_prefetch(&table->slots[hash & kHashBits & table->mask], 1);
+  }
+
   // ---- writer only ----
 
-  void prefetch(std::uint32_t hash) const {
-    const Table& table = present();
-    __builtin_prefetch(&table.slots[hash & kHashBits & table.mask], 1);
-  }
   // Precondition: number > 0, its key is not in the table, and `at` is where `find` ended.
   void insert(std::uint32_t at, std::uint32_t hash, std::uint32_t number, bool marked = false) {
     const std::uint64_t slot = word(hash, number, marked);
