@@ -27,19 +27,33 @@ Edit::Edit(std::shared_ptr<WorldImpl> world)
       lock_(world_->editing),
       next_(world_->published()),
       token_(fresh_token()),
-      old_measurements_(next_.measurements.size()) {}
+      old_measurements_(next_.measurements.size()),
+      described_(world_->symbols != nullptr) {}
 
 Edit::~Edit() = default;
 
 Name Edit::new_name(std::string_view iri) {
+  return new_name(iri, world_->family->names.ask_for(iri));
+}
+
+Name Edit::new_name(std::string_view iri, std::uint32_t asked) {
   if (iri.empty()) refuse(iri, "an element without a name", "give it an IRI");
-  const Name name = world_->family->names.intern(iri);
+  const Name name = world_->family->names.intern(iri, asked);
   const Element element = next_.find(name);
   if (element.kind != ElementKind::kNothing) {
     refuse(iri, "there is a " + std::string(to_string(element.kind)) + " of this name",
            "choose another IRI, or remove that one first");
   }
   return name;
+}
+
+FrameRecord& Edit::to_change(FrameId frame) {
+  if (frame.index < next_.frames.size()) {
+    FrameRecord& record = next_.frames.edit(frame.index, token_);
+    if (record.alive) return record;
+  }
+  alive(*world_, next_, frame);  // says what is wrong
+  return next_.frames.edit(frame.index, token_);
 }
 
 FrameId Edit::add_frame(std::string_view iri) {
@@ -63,16 +77,18 @@ ObjectId Edit::add_object(std::string_view iri, FrameId frame, std::string_view 
 }
 
 RelationId Edit::add_relation(const RelationSpec& spec) {
+  const std::uint32_t asked = world_->family->names.ask_for(spec.name);
   const bool property = spec.kind == RelationKind::kProperty;
-  alive(*world_, next_, spec.of);
+  FrameRecord& of = to_change(spec.of);
   if (property != (spec.with_respect_to == FrameId{})) {
     refuse(spec.name,
            property ? "a property with a frame that it is seen from"
                     : "a relation without a frame that it is seen from",
            "relations have two frames, properties one");
   }
+  FrameRecord* with_respect_to = nullptr;
   if (!property) {
-    alive(*world_, next_, spec.with_respect_to);
+    with_respect_to = &to_change(spec.with_respect_to);
     if (spec.of == spec.with_respect_to) {
       refuse(spec.name, "a relation of a frame with itself", "name two frames");
     }
@@ -82,7 +98,7 @@ RelationId Edit::add_relation(const RelationSpec& spec) {
     refuse(spec.name, "a placement that is not finite or whose quaternion is not of unit length",
            "a rigid placement");
   }
-  const Name name = new_name(spec.name);
+  const Name name = new_name(spec.name, asked);
   const auto index = static_cast<Index>(next_.relations.size());
   RelationRecord record{.name = name,
                         .of = spec.of.index,
@@ -90,13 +106,11 @@ RelationId Edit::add_relation(const RelationSpec& spec) {
                         .kind = spec.kind,
                         .alive = true,
                         .placement = placement};
-  FrameRecord& of = next_.frames.edit(spec.of.index, token_);
   record.next_at_of = of.first_relation;
   of.first_relation = index;
-  if (!property) {
-    FrameRecord& with_respect_to = next_.frames.edit(spec.with_respect_to.index, token_);
-    record.next_at_with_respect_to = with_respect_to.first_relation;
-    with_respect_to.first_relation = index;
+  if (with_respect_to) {
+    record.next_at_with_respect_to = with_respect_to->first_relation;
+    with_respect_to->first_relation = index;
   }
   next_.relations.edit(index, token_) = record;
   next_.by_name.edit(name.value, token_) = {ElementKind::kRelation, index};

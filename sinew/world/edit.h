@@ -53,9 +53,14 @@ class Edit {
   friend struct Merger;
   explicit Edit(std::shared_ptr<WorldImpl> world);
   Name new_name(std::string_view iri);
+  Name new_name(std::string_view iri, std::uint32_t asked);  // Names::ask_for
+  FrameRecord& to_change(FrameId frame);                     // throws unless it is alive
   // No other edit comes between; the edit's end lets the lock go.
   void commit_keeping_lock(graph::Transaction* facts = nullptr);
-  void touch(ElementKind kind, Index index) { touched_.push_back({kind, index}); }
+  // For the world's graph, which nobody makes while there is an edit.
+  void touch(ElementKind kind, Index index) {
+    if (described_) touched_.push_back({kind, index});
+  }
   void unlink(Index relation, Index frame);
   RelationId attach_with(FrameId frame, FrameId parent, const Pose& pose, Stamp now,
                          std::string_view provenance);
@@ -65,7 +70,8 @@ class Edit {
   State next_;
   EditToken token_;
   std::size_t old_measurements_;  // those with a higher number are this edit's own
-  std::vector<Element> touched_;  // some more than once
+  bool described_;                // there is a graph
+  std::vector<Element> touched_;  // some more than once; of none if there is no graph
 };
 
 }  // namespace sinew::world

@@ -10,7 +10,10 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <utility>
+
+#include "sinew/graph/pages.h"
 
 namespace sinew::world {
 
@@ -42,7 +45,7 @@ class PersistentVector {
     if (index >= size_ || !root_) return nullptr;
     const Node* node = root_;
     for (unsigned level = depth_; level > 0; --level) {
-      node = node->children[(index >> (level * kBits)) % kWidth];
+      node = child(node, index, level);
       if (!node) return nullptr;
     }
     return &static_cast<const Leaf*>(node)->items[index % kWidth];
@@ -56,8 +59,8 @@ class PersistentVector {
         while (index >= (kWidth << (depth_ * kBits))) ++depth_;
         break;
       }
-      Node* const root = new Branch(token);
-      root->children[0] = root_;
+      Branch* const root = new Branch(token);
+      root->nodes[0] = root_;
       root_ = root;
       ++depth_;
     }
@@ -66,7 +69,7 @@ class PersistentVector {
     for (unsigned level = depth_;; --level) {
       own(*slot, level, token);
       if (level == 0) return static_cast<Leaf*>(*slot)->items[index % kWidth];
-      slot = &(*slot)->children[(index >> (level * kBits)) % kWidth];
+      slot = &static_cast<Branch*>(*slot)->nodes[(index >> (level * kBits)) % kWidth];
     }
   }
   std::size_t push_back(T item, EditToken token) {
@@ -109,17 +112,29 @@ class PersistentVector {
     explicit Node(EditToken edit_token) : token(edit_token) {}
     std::atomic<std::uint32_t> owners = 1;
     EditToken token;
-    // Of a branch; a leaf has none.
-    Node** children = nullptr;
   };
   struct Branch : Node {
-    explicit Branch(EditToken token) : Node(token) { this->children = nodes; }
+    using Node::Node;
     Node* nodes[kWidth] = {};
   };
   struct Leaf : Node {
-    explicit Leaf(EditToken token) : Node(token) {}
+    using Node::Node;
+    static_assert(alignof(T) <= alignof(std::max_align_t));
+    // Large ones come from the pages that stores keep for one another (sinew/graph/pages.h).
+    static constexpr bool kOfPages = sizeof(T) * kWidth > 1024;
+    static void* operator new(std::size_t size) {
+      return kOfPages ? graph::allocate_raw(size) : ::operator new(size);
+    }
+    static void operator delete(void* leaf, std::size_t size) {
+      kOfPages ? graph::release_pages(leaf, size) : ::operator delete(leaf, size);
+    }
     T items[kWidth] = {};
   };
+
+  // Precondition: level > 0.
+  static const Node* child(const Node* node, std::size_t index, unsigned level) {
+    return static_cast<const Branch*>(node)->nodes[(index >> (level * kBits)) % kWidth];
+  }
 
   static void retain(Node* node) {
     if (node) node->owners.fetch_add(1, std::memory_order_relaxed);
@@ -130,8 +145,9 @@ class PersistentVector {
       delete static_cast<Leaf*>(node);
       return;
     }
-    for (std::size_t i = 0; i < kWidth; ++i) release(node->children[i], level - 1);
-    delete static_cast<Branch*>(node);
+    Branch* const branch = static_cast<Branch*>(node);
+    for (Node* const each : branch->nodes) release(each, level - 1);
+    delete branch;
   }
   static void own(Node*& node, unsigned level, EditToken token) {
     if (node && node->token == token) return;
@@ -148,7 +164,7 @@ class PersistentVector {
       Branch* const copy = new Branch(token);
       if (shared) {
         for (std::size_t i = 0; i < kWidth; ++i) {
-          copy->nodes[i] = shared->children[i];
+          copy->nodes[i] = static_cast<Branch*>(shared)->nodes[i];
           retain(copy->nodes[i]);
         }
       }
@@ -160,7 +176,7 @@ class PersistentVector {
     if (!root_ || index >= size_) return nullptr;
     const Node* node = root_;
     for (unsigned level = depth_; level > 0 && node; --level) {
-      node = node->children[(index >> (level * kBits)) % kWidth];
+      node = child(node, index, level);
     }
     return node;
   }
@@ -171,7 +187,7 @@ class PersistentVector {
     unsigned level = depth_;
     span = kWidth << (level * kBits);
     while (node && level > 0 && index % span != 0) {
-      node = node->children[(index >> (level * kBits)) % kWidth];
+      node = child(node, index, level);
       --level;
       span >>= kBits;
     }
