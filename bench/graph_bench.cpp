@@ -120,59 +120,46 @@ void BM_Undo(benchmark::State& state) {
 }
 BENCHMARK(BM_Undo);
 
-// The objects of a subject and predicate, from rotating subjects.
-void BM_MatchObjects(benchmark::State& state) {
+// A question about one triple after the other, of a filled store seen in one way.
+template <typename See, typename Ask>
+void ask_in_turn(benchmark::State& state, See&& see, Ask&& ask) {
   Data data(state.range(0));
   data.fill();
-  const View view = data.store.view();
+  const auto view = see(data.store);
   std::size_t at = 0, seen = 0;
-  for (auto _ : state) {
-    const Quad& quad = data.quads[(at += 17) % data.quads.size()];
-    view.match(quad.subject, quad.predicate, {}, Dataset::kUnion,
-               [&](const Quad& found) { return seen += found.object.value, true; });
-  }
+  for (auto _ : state) seen += ask(view, data.quads[(at += 17) % data.quads.size()]);
   benchmark::DoNotOptimize(seen);
 }
+constexpr auto kView = [](Store& store) { return store.view(); };
+constexpr auto kSnapshot = [](Store& store) { return store.snapshot(); };
+
+// The objects of a subject and predicate.
+constexpr auto kObjects = [](const auto& view, const Quad& quad) {
+  std::size_t seen = 0;
+  view.match(quad.subject, quad.predicate, {}, Dataset::kUnion,
+             [&](const Quad& found) { return seen += found.object.value, true; });
+  return seen;
+};
+void BM_MatchObjects(benchmark::State& state) { ask_in_turn(state, kView, kObjects); }
 BENCHMARK(BM_MatchObjects)->Apply(sizes);
 
-void BM_MatchObjectsOfSnapshot(benchmark::State& state) {
-  Data data(state.range(0));
-  data.fill();
-  const Snapshot view = data.store.snapshot();
-  std::size_t at = 0, seen = 0;
-  for (auto _ : state) {
-    const Quad& quad = data.quads[(at += 17) % data.quads.size()];
-    view.match(quad.subject, quad.predicate, {}, Dataset::kUnion,
-               [&](const Quad& found) { return seen += found.object.value, true; });
-  }
-  benchmark::DoNotOptimize(seen);
-}
+void BM_MatchObjectsOfSnapshot(benchmark::State& state) { ask_in_turn(state, kSnapshot, kObjects); }
 BENCHMARK(BM_MatchObjectsOfSnapshot)->Apply(sizes);
 
 void BM_MatchInNamedGraph(benchmark::State& state) {
-  Data data(state.range(0));
-  data.fill();
-  const View view = data.store.view();
-  std::size_t at = 0, seen = 0;
-  for (auto _ : state) {
-    const Quad& quad = data.quads[(at += 17) % data.quads.size()];
+  ask_in_turn(state, kView, [](const View& view, const Quad& quad) {
+    std::size_t seen = 0;
     view.match_in(quad.subject, quad.predicate, {}, quad.graph,
                   [&](const Quad& found) { return seen += found.object.value, true; });
-  }
-  benchmark::DoNotOptimize(seen);
+    return seen;
+  });
 }
 BENCHMARK(BM_MatchInNamedGraph)->Apply(model_sizes);
 
 void BM_Contains(benchmark::State& state) {
-  Data data(state.range(0));
-  data.fill();
-  const View view = data.store.view();
-  std::size_t at = 0, seen = 0;
-  for (auto _ : state) {
-    const Quad& quad = data.quads[(at += 17) % data.quads.size()];
-    seen += view.contains(quad.subject, quad.predicate, quad.object);
-  }
-  benchmark::DoNotOptimize(seen);
+  ask_in_turn(state, kView, [](const View& view, const Quad& quad) {
+    return view.contains(quad.subject, quad.predicate, quad.object);
+  });
 }
 BENCHMARK(BM_Contains)->Apply(sizes);
 

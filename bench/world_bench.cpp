@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "controller_pose.h"
 #include "sinew/blocks/elaborate.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/world.h"
@@ -279,26 +280,6 @@ BENCHMARK(BM_write);
 // With the same value as a controller has it, a matrix in millimetres: the conversion is part of
 // the write.
 void BM_write_realtime_with_a_block(benchmark::State& state) {
-  static constexpr const char* kController = R"(
-units ht_mm :: qudt, ht_matrix {
-  unitless = {0,0}, unitless = {0,1}, unitless = {0,2}, mm = {0,3}, unitless = {1,0},
-  unitless = {1,1}, unitless = {1,2}, mm = {1,3}, unitless = {2,0}, unitless = {2,1},
-  unitless = {2,2}, mm = {2,3}, unitless = {3,0}, unitless = {3,1}, unitless = {3,2},
-  unitless = {3,3}
-}
-dproto controller_pose :: geometry {
-  semantic  = Pose
-  coord     = homogeneous_transformation
-  algebraic = ht_matrix
-  ddr       = :: c99 { double[16] }
-  dr        = {
-    0 = {0,0}, 1 = {0,1}, 2 = {0,2}, 3 = {0,3}, 4 = {1,0}, 5 = {1,1}, 6 = {1,2}, 7 = {1,3},
-    8 = {2,0}, 9 = {2,1}, 10 = {2,2}, 11 = {2,3}, 12 = const 0, 13 = const 0, 14 = const 0,
-    15 = const 1
-  }
-  units     = ht_mm
-}
-)";
   World world;
   const FrameId a = world.add_frame("http://bench/a"), b = world.add_frame("http://bench/b");
   const RelationId relation =
@@ -308,7 +289,7 @@ dproto controller_pose :: geometry {
        .relation = relation,
        .blocks = {
            .library = std::make_shared<const sinew::data::Library>(sinew::blocks::load_library(
-               std::string(kController) + kCanonicalPrototypes, "bench.blocks")),
+               std::string(kControllerPose) + kCanonicalPrototypes, "bench.blocks")),
            .blocks = {{"http://bench/m/controller", "controller_pose", true}}}});
   Writer writer = world.claim(measured, {"bench"});
   const Pose X = Motion(1).at(0, kLast);

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "allocations.h"
+#include "controller_pose.h"
 #include "random_poses.h"
 #include "sinew/blocks/elaborate.h"
 #include "sinew/graph/store.h"
@@ -18,27 +19,8 @@
 namespace sinew::world {
 namespace {
 
-// A pose as one homogeneous transformation in millimetres, as a dual quaternion, and a position
-// only, from which no pose can be made.
+// A joint's position as an angle in radians or in degrees, and as no more than its cosine.
 constexpr const char* kPrototypes = R"(
-units ht_mm :: qudt, ht_matrix {
-  unitless = {0,0}, unitless = {0,1}, unitless = {0,2}, mm = {0,3}, unitless = {1,0},
-  unitless = {1,1}, unitless = {1,2}, mm = {1,3}, unitless = {2,0}, unitless = {2,1},
-  unitless = {2,2}, mm = {2,3}, unitless = {3,0}, unitless = {3,1}, unitless = {3,2},
-  unitless = {3,3}
-}
-dproto controller_pose :: geometry {
-  semantic  = Pose
-  coord     = homogeneous_transformation
-  algebraic = ht_matrix
-  ddr       = :: c99 { double[16] }
-  dr        = {
-    0 = {0,0}, 1 = {0,1}, 2 = {0,2}, 3 = {0,3}, 4 = {1,0}, 5 = {1,1}, 6 = {1,2}, 7 = {1,3},
-    8 = {2,0}, 9 = {2,1}, 10 = {2,2}, 11 = {2,3}, 12 = const 0, 13 = const 0, 14 = const 0,
-    15 = const 1
-  }
-  units     = ht_mm
-}
 domain joint_space :: {
   semantic : JointPosition
   coord : absolute | approximate
@@ -58,8 +40,8 @@ dproto display :: joint_space { semantic = JointPosition coord = approximate alg
 )";
 
 std::shared_ptr<const data::Library> library() {
-  static const auto loaded = std::make_shared<const data::Library>(
-      blocks::load_library(std::string(kPrototypes) + kCanonicalPrototypes, "blocks_test.blocks"));
+  static const auto loaded = std::make_shared<const data::Library>(blocks::load_library(
+      std::string(kControllerPose) + kPrototypes + kCanonicalPrototypes, "blocks_test.blocks"));
   return loaded;
 }
 

@@ -12,12 +12,7 @@ constexpr std::string_view kData = R"(
   :l1 :name "one" . :l2 :name "two" .
 )";
 
-struct Case {
-  const char* name;
-  const char* query;
-  Rows expected;
-};
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+using Case = QueryCase;
 
 class Aggregates : public testing::TestWithParam<Case> {};
 

@@ -13,12 +13,7 @@ constexpr std::string_view kData = R"(
   :wrist :label "wrist"@en .
 )";
 
-struct Case {
-  const char* name;
-  const char* query;
-  Rows expected;
-};
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+using Case = QueryCase;
 
 class Patterns : public testing::TestWithParam<Case> {};
 

@@ -1,6 +1,7 @@
 // Small data in TriG, and results as short names, so that a test reads as a table.
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,14 @@ namespace sinew::rdf::sparql {
 // Rows of terms, sorted unless said otherwise. Terms are written as in Turtle with the prefixes :
 // for http://e/ and xsd:; "-" is unbound, "_" any blank node.
 using Rows = std::vector<std::vector<std::string>>;
+
+// A query of a table of tests, and what it gives.
+struct QueryCase {
+  const char* name;
+  const char* query;
+  Rows expected;
+};
+inline std::ostream& operator<<(std::ostream& out, const QueryCase& c) { return out << c.name; }
 
 struct Table {
   // The data may use the prefix : without declaring it.

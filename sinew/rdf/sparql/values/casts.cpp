@@ -123,28 +123,34 @@ Value to_duration(const Value& value, Datatype type) {
   return Value::of_duration(duration, type);
 }
 
-Value to_text(const Value& value, const TermSpace& space, std::string& text) {
-  // Numbers and booleans are cast by value, not by how they are written.
+// A boolean's or a number's text, which casts and str() write in two ways; false for others.
+template <typename FloatText, typename DoubleText>
+bool write_plain(const Value& value, FloatText float_form, DoubleText double_form,
+                 std::string& text) {
   switch (value.kind) {
     case ValueKind::kBoolean:
       text = value.boolean ? "true" : "false";
-      break;
+      return true;
     case ValueKind::kInteger:
     case ValueKind::kDecimal:
       text = to_string(value.decimal);
-      break;
+      return true;
     case ValueKind::kFloat:
-      text = float_as_string(static_cast<float>(value.real));
-      break;
+      text = float_form(static_cast<float>(value.real));
+      return true;
     case ValueKind::kDouble:
-      text = double_as_string(value.real);
-      break;
-    default: {
-      const auto plain = as_text(value, space, text);
-      return plain ? Value::of_string(*plain) : Value::error();
-    }
+      text = double_form(value.real);
+      return true;
+    default:
+      return false;
   }
-  return Value::of_string(text);
+}
+
+Value to_text(const Value& value, const TermSpace& space, std::string& text) {
+  // Numbers and booleans are cast by value, not by how they are written.
+  if (write_plain(value, float_as_string, double_as_string, text)) return Value::of_string(text);
+  const auto plain = as_text(value, space, text);
+  return plain ? Value::of_string(*plain) : Value::error();
 }
 
 }  // namespace
@@ -165,20 +171,8 @@ std::optional<std::string_view> as_text(const Value& value, const TermSpace& spa
       break;
   }
   if (value.id) return value.text;
+  if (write_plain(value, float_text, double_text, text)) return text;
   switch (value.kind) {
-    case ValueKind::kBoolean:
-      text = value.boolean ? "true" : "false";
-      break;
-    case ValueKind::kInteger:
-    case ValueKind::kDecimal:
-      text = to_string(value.decimal);
-      break;
-    case ValueKind::kFloat:
-      text = float_text(static_cast<float>(value.real));
-      break;
-    case ValueKind::kDouble:
-      text = double_text(value.real);
-      break;
     case ValueKind::kDateTime:
       text = to_string(value.instant(), Datatype::kDateTime);
       break;
