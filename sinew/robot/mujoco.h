@@ -2,8 +2,8 @@
 // thread of its own that keeps the pace of the wall clock. MuJoCo's headers stay behind this one.
 //
 // The brakes are on until the first command. Commands are cut at the maximum forces that the model
-// states. In lockstep there is no thread: each `end_cycle` moves the simulation on by one period, so a
-// run is the same on every machine, however slow.
+// states. In lockstep there is no thread: each `end_cycle` moves the simulation on by one period,
+// so a run is the same on every machine, however slow.
 #pragma once
 
 #include <memory>

@@ -5,8 +5,8 @@
 
 namespace sinew::synthesis {
 
-// For each body: refuses one that ends a chain and has no inertia about (or along) its joint's axis,
-// and a floating base without mass at such an end.
+// For each body: refuses one that ends a chain and has no inertia about (or along) its joint's
+// axis, and a floating base without mass at such an end.
 Visitor refuse_weightless();
 
 }  // namespace sinew::synthesis

@@ -9,8 +9,8 @@
 
 namespace sinew::peers {
 
-// What `make` makes; where some joints of the URDF mimic others and are not among the setup's joints,
-// with them.
+// What `make` makes; where some joints of the URDF mimic others and are not among the setup's
+// joints, with them.
 std::unique_ptr<Peer> with_followers(
     const Setup& setup, const std::function<std::unique_ptr<Peer>(const Setup&)>& make);
 

@@ -1,4 +1,5 @@
-// Any JSON-LD document as a task, and as a host of tasks: it is read, or refused with reasons; never more.
+// Any JSON-LD document as a task, and as a host of tasks: it is read, or refused with reasons;
+// never more.
 #include <cstddef>
 #include <cstdint>
 #include <span>
