@@ -16,6 +16,7 @@
 #include "sinew/vocab/standard.h"
 #include "sinew/vocab/vocab.h"
 #include "sinew/world/declared_rights.h"
+#include "sinew/world/declared_triggers.h"
 #include "sinew/world/scene.h"
 
 namespace sinew::cli {
@@ -106,7 +107,9 @@ int run_check(Arguments arguments) {
           return std::make_shared<const data::Library>(blocks::load_library(text, "data blocks"));
         }});
     if (!report.has_errors()) {
-      shaped = world::read_scene(world, models->store, models->places, report).bodies.size();
+      const auto declared = world::read_scene(world, models->store, models->places, report);
+      shaped = declared.bodies.size();
+      world::read_triggers(world, declared, models->store, models->places, report);
       world::read_rights(models->store, models->places, report);
     }
     const world::State state = world.state();

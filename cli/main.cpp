@@ -35,7 +35,7 @@ constexpr Command kCommands[] = {
     {"explain", "NAME.json LINE", "from a generated line to its model element", run_explain},
     {"convert", "FILE SOURCE TARGET", "data conversions: explained, emitted, done", run_convert},
     {"blocks", "check|fmt|graph|text FILE", "the block language", run_blocks},
-    {"world", "show|pose|within|relations|rights|query|save MODEL…",
+    {"world", "show|pose|within|relations|rights|query|watch|save MODEL…",
      "a scene: what is where, who says so, and how fresh it is", run_world},
 };
 

@@ -19,6 +19,7 @@
 #include "sinew/world/qualitative_facts.h"
 #include "sinew/world/space.h"
 #include "world_scene.h"
+#include "world_watch.h"
 
 namespace sinew::cli {
 namespace {
@@ -95,6 +96,7 @@ int show(LoadedScene& scene, const Asked&) {
                  to_string(record.model->life_cycle), short_name(record.model->provenance), status);
     }
   }
+  show_triggers(scene);
   return kOk;
 }
 
@@ -405,7 +407,8 @@ const Verb kVerbs[] = {
        app.add_option("-o,--output", asked.output, "File for the answer");
        add_in(app, asked);
      }},
-    {"save", "The scene as a model again, with the last value of every measurement and the rights",
+    {"save",
+     "The scene as a model again, with the last value of every measurement, rights and triggers",
      save,
      [](CLI::App& app, Asked& asked) {
        app.add_flag("--with-robot", asked.with_robot,
@@ -434,7 +437,19 @@ int run_world(Arguments arguments) {
     add_scene_options(*command, options);
     if (verb.options) verb.options(*command, asked);
   }
+  WatchOptions watching;
+  CLI::App* const watched = app.add_subcommand(
+      "watch", "What the scene's triggers would do while --write values come, one after the other");
+  add_scene_options(*watched, options);
+  watched->add_option("--until", watching.until_s,
+                      "Look on until then, in seconds (default: until the last value)");
+  watched->add_option("--step", watching.step_s, "Seconds between two looks after it");
   if (const auto code = parse(app, std::move(arguments))) return *code;
+  if (app.got_subcommand(watched)) {
+    const int code = watch(options, watching);
+    std::fflush(stdout);
+    return code;
+  }
   const auto scene = load_world(options);
   for (const Verb& verb : kVerbs) {
     if (!app.got_subcommand(verb.name)) continue;

@@ -104,7 +104,8 @@ void add_the_robot(const SceneOptions& options, LoadedScene& scene) {
 }
 
 // "MEASUREMENT=x,y,z,qx,qy,qz,qw@12.5"
-void write(const std::string& text, const SceneOptions& options, LoadedScene& scene) {
+void write(const std::string& text, const SceneOptions& options, LoadedScene& scene,
+           const AtWrite& before, const AtWrite& after) {
   const std::size_t equals = text.rfind('=');
   const std::size_t at = text.find('@', equals == std::string::npos ? 0 : equals);
   if (equals == std::string::npos) {
@@ -124,14 +125,16 @@ void write(const std::string& text, const SceneOptions& options, LoadedScene& sc
   }
   double seconds = options.now_s.value_or(0);
   if (at != std::string::npos) seconds = numbers(text.substr(at + 1), "--write").front();
+  const world::Stamp stamp(world::duration_of_seconds(seconds));
+  if (before) before(scene, stamp);
   const std::string who =
       options.as.empty() ? scene.world.model(measurement)->provenance : options.as;
-  const world::Status status = scene.world.write(
-      measurement, world::Stamp(world::duration_of_seconds(seconds)), values, {who});
+  const world::Status status = scene.world.write(measurement, stamp, values, {who});
   if (status != world::Status::kOk) {
     refuse(scene.world.name(measurement), "is not written: " + std::string(to_string(status)),
            "finite numbers, a quaternion of unit length, and a measurement that is not static");
   }
+  if (after) after(scene, stamp);
 }
 
 // The time of the last entry of all that changes.
@@ -254,7 +257,8 @@ world::FrameId LoadedScene::root(const std::string& name) const {
          "say in which frame is asked");
 }
 
-std::unique_ptr<LoadedScene> load_world(const SceneOptions& options) {
+std::unique_ptr<LoadedScene> load_world(const SceneOptions& options, const AtWrite& before,
+                                        const AtWrite& after) {
   auto scene = std::make_unique<LoadedScene>();
   scene->models = load(options.models);
   add_the_robot(options, *scene);
@@ -266,18 +270,20 @@ std::unique_ptr<LoadedScene> load_world(const SceneOptions& options) {
         read_scene(scene->world, store, scene->models->places, report, meshes_of(options));
     add_robot_bodies(*scene);
     scene->rights = world::read_rights(store, scene->models->places, report);
+    scene->triggers =
+        world::read_triggers(scene->world, scene->declared, store, scene->models->places, report);
   }
   report.throw_if_errors();
   print_notes(report);
   scene->audit = std::make_shared<world::Audit>();
-  world::Access access(scene->world, scene->rights.rights, scene->audit);
+  scene->access = std::make_unique<world::Access>(scene->world, scene->rights.rights, scene->audit);
   SceneOptions resolved = options;
   if (!options.as.empty()) {
     const auto& known = scene->rights.components;
     resolved.as = find(options.as, {known.begin(), known.end()}, {}, "component");
-    scene->asker = std::make_unique<world::Participant>(access.participant(resolved.as));
+    scene->asker = std::make_unique<world::Participant>(scene->access->participant(resolved.as));
   }
-  for (const std::string& text : options.writes) write(text, resolved, *scene);
+  for (const std::string& text : options.writes) write(text, resolved, *scene, before, after);
   scene->now = options.now_s ? world::Stamp(world::duration_of_seconds(*options.now_s))
                              : last_stamp(scene->world);
   return scene;

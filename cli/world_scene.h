@@ -2,6 +2,7 @@
 // are written before anything is asked, and the names by which things are asked for.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "pipeline.h"
 #include "sinew/world/audit.h"
 #include "sinew/world/declared_rights.h"
+#include "sinew/world/declared_triggers.h"
 #include "sinew/world/participant.h"
 #include "sinew/world/scene.h"
 
@@ -39,7 +41,9 @@ struct LoadedScene {
   world::Stamp now;
   std::set<std::string> robot_frames;             // IRIs
   std::vector<world::DeclaredBody> robot_bodies;  // of its collision geometry
-  std::unique_ptr<world::Participant> asker;      // on whose behalf is asked; null: the owner's
+  std::vector<world::DeclaredTrigger> triggers;
+  std::unique_ptr<world::Access> access;
+  std::unique_ptr<world::Participant> asker;  // on whose behalf is asked; null: the owner's
 
   // By IRI, by label, or by what follows the last '#' or '/' of the IRI. Throws Error where there
   // is none, or several.
@@ -50,8 +54,11 @@ struct LoadedScene {
   world::FrameId root(const std::string& name) const;
 };
 
-// Throws Error with everything that is wrong; notes go to standard error.
-std::unique_ptr<LoadedScene> load_world(const SceneOptions& options);
+// Throws Error with everything that is wrong; notes go to standard error. Values are written in the
+// order in which they are given; `before` and `after` each (none: nothing) with the time of it.
+using AtWrite = std::function<void(LoadedScene& scene, world::Stamp stamp)>;
+std::unique_ptr<LoadedScene> load_world(const SceneOptions& options, const AtWrite& before = {},
+                                        const AtWrite& after = {});
 
 // What follows the last '#' or '/'.
 std::string short_name(const std::string& iri);

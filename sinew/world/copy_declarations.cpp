@@ -1,5 +1,6 @@
 #include "sinew/world/copy_declarations.h"
 
+#include <algorithm>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -18,8 +19,12 @@ std::size_t copy_declarations(const graph::Store& from, graph::Store& to) {
     if (seen.insert(node.value).second) open.push_back(node);
   };
   const graph::Id is_a = terms.find_iri(vocab::rdf::type);
-  const graph::Id precondition = terms.find_iri(std::string(kWorldNamespace) + "precondition");
-  for (const char* type : {"Component", "Allowance", "Prohibition", "SingleWriter", "Action"}) {
+  // What is said of a declaration in a node of its own, that may have a name.
+  std::vector<graph::Id> inner;
+  for (const char* property : {"precondition", "threshold", "every"}) {
+    if (const auto id = terms.find_iri(std::string(kWorldNamespace) + property)) inner.push_back(id);
+  }
+  for (const char* type : {"Component", "Allowance", "Prohibition", "SingleWriter", "Action", "Trigger"}) {
     const graph::Id of = terms.find_iri(std::string(kWorldNamespace) + type);
     if (!of || !is_a) continue;
     view.match({}, is_a, of, graph::Dataset::kUnion, [&](const graph::Quad& quad) {
@@ -31,7 +36,8 @@ std::size_t copy_declarations(const graph::Store& from, graph::Store& to) {
     const graph::Id node = open.back();
     open.pop_back();
     view.match(node, {}, {}, graph::Dataset::kUnion, [&](const graph::Quad& quad) {
-      if (terms.is_blank(quad.object) || quad.predicate == precondition) reach(quad.object);
+      const bool is_inner = std::find(inner.begin(), inner.end(), quad.predicate) != inner.end();
+      if (terms.is_blank(quad.object) || is_inner) reach(quad.object);
       return true;
     });
   }

@@ -6,6 +6,7 @@
 
 #include "sinew/vocab/vocab.h"
 #include "sinew/world/declared_scene.h"
+#include "sinew/world/scene_conditions.h"
 #include "sinew/world/scene_numbers.h"
 #include "sinew/world/state.h"
 
@@ -15,19 +16,6 @@ namespace {
 using graph::Id;
 
 constexpr std::string_view kLabel = "http://www.w3.org/2000/01/rdf-schema#label";
-
-data::Dimension dimension_of(std::string_view unit) {
-  if (unit == "m") return model::dimension::kLength;
-  if (unit == "rad") return model::dimension::kAngle;
-  return model::dimension::kNone;
-}
-
-const QuantityDescription* find_quantity(std::string_view name) {
-  for (const QuantityDescription& row : quantities()) {
-    if (row.name == name) return &row;
-  }
-  return nullptr;
-}
 
 struct Reading {
   const World& world;
@@ -221,35 +209,6 @@ struct Reading {
 
   // ---- rules ----
 
-  void condition(Id node, Rule& rule) {
-    const auto measures = reader.one(node, w("measures"), "the quantity that is measured");
-    if (!measures) return;
-    const QuantityDescription* const row = find_quantity(reader.text(*measures));
-    if (!row) {
-      std::string known;
-      for (const auto& each : quantities()) {
-        known += (known.empty() ? "" : ", ") + std::string(each.name);
-      }
-      reader.error(node, w("measures"), "there is no quantity '" + numbers.text(*measures) + "'",
-                   known);
-      return;
-    }
-    const auto scale = reader.scale(node, dimension_of(row->unit), "the bounds");
-    if (!scale) return;
-    Condition condition{.quantity = std::string(row->name)};
-    for (auto [term, bound] :
-         {std::pair{"minimum", &condition.minimum}, std::pair{"maximum", &condition.maximum}}) {
-      if (!numbers.has(node, term)) continue;
-      const auto value = reader.number(node, w(term));
-      if (!value) return;
-      *bound = *scale * *value;
-    }
-    if (numbers.has(node, "maximum-of")) {
-      condition.maximum_of = numbers.text(reader.view.object(node, w("maximum-of")));
-    }
-    rule.conditions.push_back(std::move(condition));
-  }
-
   void rule(Id node) {
     const auto called = reader.one(node, w("called"), "what the relation is called");
     const auto axes = reader.one(node, w("axes"), "the axes along which is measured");
@@ -272,7 +231,10 @@ struct Reading {
       return;
     }
     rule.ternary = count == 3;
-    for (const Id id : reader.objects(node, w("condition"))) condition(id, rule);
+    for (const Id id : reader.objects(node, w("condition"))) {
+      auto condition = read_condition(numbers, id);
+      if (condition) rule.conditions.push_back(std::move(*condition));
+    }
     scene.rules.push_back({named(node), std::move(rule)});
   }
 

@@ -10,6 +10,8 @@
 #include "sinew/vocab/vocab.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/reading.h"
+#include "sinew/world/scene_measurements.h"
+#include "sinew/world/scene_measurements.h"
 #include "sinew/world/scene_numbers.h"
 
 namespace sinew::world {
@@ -48,183 +50,6 @@ struct SceneReader {
                      problem.remedy);
       }
     }
-  }
-
-  // ---- what is known of a measurement ----
-
-  // Numbers in the order of a quantity and in SI units, which is said.
-  std::optional<std::vector<double>> si_numbers(Id node, std::string_view term, std::size_t size) {
-    const auto system = reader.one(node, w("system"), "the system of units");
-    auto found = numbers.list(node, w(term), size);
-    if (!system || !found) return std::nullopt;
-    if (reader.text(*system) == "SI") return found;
-    reader.error(node, w("system"), "there is no system of units '" + text(*system) + "'", "SI");
-    return std::nullopt;
-  }
-
-  // A twist, or how it changes.
-  std::optional<Twist> twist(Id node, std::string_view angular_term, std::string_view linear_term,
-                             const data::Dimension& of_angles, const data::Dimension& of_lengths) {
-    const auto angular = numbers.vector(node, w(angular_term));
-    const auto linear = numbers.vector(node, w(linear_term));
-    const auto angles = reader.scale(node, of_angles, "the angular motion");
-    const auto lengths = reader.scale(node, of_lengths, "the linear motion");
-    if (!angular || !linear || !angles || !lengths) return std::nullopt;
-    return Twist{*angles * *angular, *lengths * *linear};
-  }
-  std::optional<Twist> velocity(Id node) {
-    return twist(node, "angular", "linear", model::dimension::kAngularVelocity,
-                 model::dimension::kVelocity);
-  }
-
-  struct Measured {  // what a measurement is of
-    Quantity quantity = Quantity::kPose;
-    std::uint32_t size = 7;
-    FrameId of, with_respect_to;
-  };
-
-  std::optional<PredictionModel> prediction(Id node, const Measured& measured) {
-    const FrameId with_respect_to = measured.with_respect_to;
-    const auto model = reader.one(node, w("predicted-by"), "the model of a prediction");
-    if (!model) return std::nullopt;
-    const bool of_pose = measured.quantity == Quantity::kPose;
-    if (reader.is_a(*model, w("ConstantVelocity"))) {
-      ConstantVelocity constant;
-      if (numbers.has(*model, "angular") || numbers.has(*model, "linear")) {
-        const auto stated = velocity(*model);
-        if (!stated) return std::nullopt;
-        constant.twist = *stated;
-      }
-      if (numbers.has(*model, "rates")) {
-        auto rates = si_numbers(*model, "rates", measured.size);
-        if (!rates) return std::nullopt;
-        constant.rates = std::move(*rates);
-      }
-      return constant;
-    }
-    if (reader.is_a(*model, w("ConstantAcceleration"))) {
-      ConstantAcceleration faster;
-      if (of_pose) {
-        const auto stated = velocity(*model);
-        const auto rate =
-            twist(*model, "angular-rate", "linear-rate", model::dimension::kAngularAcceleration,
-                  model::dimension::kAcceleration);
-        if (!stated || !rate) return std::nullopt;
-        faster.twist = *stated;
-        faster.twist_rate = *rate;
-        return faster;
-      }
-      auto rates = si_numbers(*model, "rates", measured.size);
-      auto accelerations = si_numbers(*model, "accelerations", measured.size);
-      if (!rates || !accelerations) return std::nullopt;
-      faster.rates = std::move(*rates);
-      faster.accelerations = std::move(*accelerations);
-      return faster;
-    }
-    if (reader.is_a(*model, w("Conveyor"))) {
-      const auto linear = numbers.vector(*model, w("linear"));
-      const auto scale =
-          reader.scale(*model, model::dimension::kVelocity, "the conveyor's velocity");
-      const auto seen_by = reader.one(*model, reader.ids.seen_by, "the frame of the velocity");
-      if (!linear || !scale || !seen_by) return std::nullopt;
-      if (edit.find_frame(reader.text(*seen_by)) != with_respect_to) {
-        reader.error(*model, reader.ids.seen_by, "the velocity is seen by " + text(*seen_by),
-                     "by the frame with respect to which the pose is measured");
-        return std::nullopt;
-      }
-      return Conveyor{*scale * *linear};
-    }
-    reader.error(node, w("predicted-by"), text(*model) + " is no model of prediction",
-                 "a ConstantVelocity, a ConstantAcceleration or a Conveyor; others are in code");
-    return std::nullopt;
-  }
-
-  std::optional<LifeCycle> life_cycle(Id node, const Measured& measured) {
-    const auto kind = reader.one(node, w("life-cycle"), "how long the measurement holds");
-    const auto validity = numbers.duration(node, "validity");
-    const auto horizon = numbers.duration(node, "horizon");
-    const auto expiry = numbers.stamp(node, "expiry");
-    if (!kind || !validity || !horizon || !expiry) return std::nullopt;
-    if (reader.text(*kind) != "prediction" &&
-        (numbers.has(node, "predicted-by") || numbers.has(node, "horizon"))) {
-      reader.error(node, w("life-cycle"),
-                   "a model of prediction for a measurement that is " + text(*kind),
-                   "the life-cycle prediction");
-      return std::nullopt;
-    }
-    if (reader.text(*kind) == "static") return Static{};
-    if (reader.text(*kind) == "time-dependent") {
-      return TimeDependent{.validity = *validity,
-                           .expiry = numbers.has(node, "expiry") ? *expiry : Stamp::max()};
-    }
-    if (reader.text(*kind) == "prediction") {
-      auto model = prediction(node, measured);
-      if (!model) return std::nullopt;
-      return Prediction{.model = std::move(*model), .horizon = *horizon};
-    }
-    reader.error(node, w("life-cycle"), "there is no life-cycle '" + text(*kind) + "' in models",
-                 "static, time-dependent or prediction");
-    return std::nullopt;
-  }
-
-  std::optional<Interpolation> interpolation(Id node) {
-    if (!numbers.has(node, "interpolation")) return Interpolation::kLinear;
-    const auto name = reader.one(node, w("interpolation"), "the interpolation");
-    if (!name) return std::nullopt;
-    if (reader.text(*name) == "linear") return Interpolation::kLinear;
-    if (reader.text(*name) == "screw") return Interpolation::kScrew;
-    if (reader.text(*name) == "hold") return Interpolation::kHold;
-    reader.error(node, w("interpolation"), "there is no interpolation '" + text(*name) + "'",
-                 "linear, screw or hold");
-    return std::nullopt;
-  }
-
-  // The deviation by which Choice::kMostCertain and Way::kMostCertain compare, in metres.
-  std::optional<double> deviation(Id node) {
-    if (!numbers.has(node, "deviation")) return MeasurementModel{}.standard_deviation;
-    const auto value = reader.one(node, w("deviation"), "the standard deviation");
-    if (!value) return std::nullopt;
-    const auto number = reader.number(*value, w("number"));
-    const auto scale = reader.scale(*value, model::dimension::kLength, "the standard deviation");
-    if (!number || !scale) return std::nullopt;
-    if (*number < 0) {
-      reader.error(*value, w("number"), fmt::format("a deviation of {}", *number),
-                   "none is below zero");
-      return std::nullopt;
-    }
-    return *scale * *number;
-  }
-
-  std::optional<std::uint32_t> entries(Id node, bool is_static) {
-    if (!numbers.has(node, "entries")) return is_static ? 1 : kUsualCapacity;
-    const auto literal = reader.one(node, w("entries"), "the number of entries that are kept");
-    if (!literal) return std::nullopt;
-    const auto count = reader.view.terms().integer_value(*literal);
-    if (count && *count >= 1 && *count <= std::int64_t{kMaximumCapacity}) {
-      return static_cast<std::uint32_t>(*count);
-    }
-    reader.error(node, w("entries"), text(*literal) + " entries are kept",
-                 "an integer from 1 to " + std::to_string(kMaximumCapacity));
-    return std::nullopt;
-  }
-
-  std::optional<MeasurementModel> model_of(Id node, const Measured& measured) {
-    const auto cycle = life_cycle(node, measured);
-    const auto period = numbers.duration(node, "period");
-    const auto provenance = reader.one(node, w("provenance"), "who provides the measurement");
-    const auto between = interpolation(node);
-    const auto standard_deviation = deviation(node);
-    if (!cycle || !period || !provenance || !between || !standard_deviation) return std::nullopt;
-    MeasurementModel model{.life_cycle = *cycle,
-                           .interpolation = *between,
-                           .provenance = text(*provenance),
-                           .standard_deviation = *standard_deviation,
-                           .period = *period};
-    for (const Id user : reader.objects(node, w("used-by"))) model.used_by.push_back(text(user));
-    if (const Id seen_from = reader.view.object(node, w("coord-frame"))) {
-      model.coord_frame = text(seen_from);
-    }
-    return model;
   }
 
   // ---- values ----
@@ -280,7 +105,7 @@ struct SceneReader {
                    "a Numbers");
       return std::nullopt;
     }
-    auto found = si_numbers(stated, "numbers", measured.size);
+    auto found = numbers.si_list(stated, "numbers", measured.size);
     const auto stamp = numbers.stamp(stated);
     if (!found || !stamp) return std::nullopt;
     if (measured.quantity == Quantity::kTwist || measured.quantity == Quantity::kAcceleration) {
@@ -354,43 +179,13 @@ struct SceneReader {
     });
   }
 
-  // What is measured, of a relation of that kind; reports what is no quantity.
-  std::optional<Measured> measured_of(Id node, FrameId of, FrameId with_respect_to) {
-    Measured measured{.of = of, .with_respect_to = with_respect_to};
-    if (!numbers.has(node, "quantity")) return measured;
-    const auto name = reader.one(node, w("quantity"), "the quantity");
-    if (!name) return std::nullopt;
-    for (const Quantity each :
-         {Quantity::kPose, Quantity::kTwist, Quantity::kAcceleration, Quantity::kJointPosition,
-          Quantity::kJointVelocity, Quantity::kJointAcceleration, Quantity::kOther}) {
-      if (reader.text(*name) != to_string(each)) continue;
-      measured.quantity = each;
-      measured.size = size_of(each);
-      if (each != Quantity::kOther) return measured;
-      const auto stated = reader.one(node, w("size"), "how many numbers it has");
-      if (!stated) return std::nullopt;
-      const auto size = reader.view.terms().integer_value(*stated);
-      if (size && *size >= 1 && *size <= std::int64_t{kMaximumValues}) {
-        measured.size = static_cast<std::uint32_t>(*size);
-        return measured;
-      }
-      reader.error(node, w("size"), text(*stated) + " numbers",
-                   "an integer from 1 to " + std::to_string(kMaximumValues));
-      return std::nullopt;
-    }
-    reader.error(node, w("quantity"), "there is no quantity '" + text(*name) + "'",
-                 "pose, twist, acceleration, joint-position, joint-velocity, joint-acceleration or "
-                 "other");
-    return std::nullopt;
-  }
-
   void measurement(Id node, RelationId relation, FrameId of, FrameId with_respect_to) {
-    const auto measured = measured_of(node, of, with_respect_to);
+    const auto measured = read_measured(numbers, node, of, with_respect_to);
     if (!measured) return;
-    auto model = model_of(node, *measured);
+    auto model = read_measurement_model(numbers, edit, node, *measured);
     if (!model) return;
     const bool is_static = std::holds_alternative<Static>(model->life_cycle);
-    const auto capacity = entries(node, is_static);
+    const auto capacity = read_entries(numbers, node, is_static);
     auto data_blocks = blocks(node);
     if (!capacity || !data_blocks) return;
     const Id stated = reader.view.object(node, w("value"));

@@ -41,6 +41,16 @@ std::optional<std::vector<double>> SceneNumbers::list(Id node, Id property, std:
   return std::nullopt;
 }
 
+std::optional<std::vector<double>> SceneNumbers::si_list(Id node, std::string_view term,
+                                                         std::size_t count) {
+  const auto system = reader.one(node, w("system"), "the system of units");
+  auto found = list(node, w(term), count);
+  if (!system || !found) return std::nullopt;
+  if (reader.text(*system) == "SI") return found;
+  reader.error(node, w("system"), "there is no system of units '" + text(*system) + "'", "SI");
+  return std::nullopt;
+}
+
 std::optional<Vector3> SceneNumbers::vector(Id node, Id property) {
   const auto numbers = list(node, property, 3);
   if (!numbers) return std::nullopt;

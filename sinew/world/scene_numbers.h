@@ -30,6 +30,9 @@ struct SceneNumbers {
 
   // A list of exactly `count` finite numbers.
   std::optional<std::vector<double>> list(graph::Id node, graph::Id property, std::size_t count);
+  // The same in the order of a quantity and in SI units, which is said (w:system).
+  std::optional<std::vector<double>> si_list(graph::Id node, std::string_view term,
+                                             std::size_t count);
   std::optional<Vector3> vector(graph::Id node, graph::Id property);
   // A list of lists of two numbers, `most` of them at most.
   std::optional<std::vector<std::array<double, 2>>> corners(graph::Id node, graph::Id property,

@@ -170,6 +170,16 @@ TEST(WorldCommand, TheDocumentedSceneAnswersAsDocumented) {
             "http://lab.example/red-box\nhttp://lab.example/blue-box\n");
   EXPECT_THAT(ask("query", {"-e", "SELECT ?x WHERE { ?x w:on <http://lab.example/table> }"}),
               HasSubstr("(2 rows)"));
+  EXPECT_THAT(ask("show", {}), HasSubstr("seen  on change of seen-red: plan-grasp, priority 0"));
+  EXPECT_EQ(ask("watch", {"--until", "10.5"}),
+            "9 s  careful  when of http://lab.example/robot and http://lab.example/table distance "
+            "up to 1.1: slow-down\n"
+            "10 s  seen  on change of seen-red: plan-grasp\n");
+  EXPECT_THAT(run_sinew({"world", "watch", lab, "--now", "1", "--until", "2", "--step", "0"}).err,
+              HasSubstr("a positive step"));
+  EXPECT_THAT(
+      run_sinew({"world", "watch", lab, "--now", "1", "--until", "2", "--step", "1e-9"}).err,
+      HasSubstr("at most 1000000 of them"));
   // 0.2 m/s, for half a second more.
   EXPECT_THAT(ask("pose", {"--of", "at-robot", "--wrt", "room", "--now", "10.5"}),
               HasSubstr("position    0.8 1 0 m"));

@@ -5,6 +5,8 @@
 
 #include "sinew/model/load.h"
 #include "sinew/rdf/turtle/writer.h"
+#include "sinew/world/copy_declarations.h"
+#include "sinew/world/declared_triggers.h"
 #include "sinew/world/scene.h"
 
 using namespace sinew;
@@ -17,12 +19,15 @@ struct Loaded {
   Report report;
   world::World world;
   world::DeclaredScene scene;
+  std::vector<world::DeclaredTrigger> triggers;
 
   explicit Loaded(std::string text) {
     const model::Source source{"fuzz.ttl", std::move(text)};
     model::load({&source, 1}, {}, store, places, report);
     if (!report.has_errors()) world::load_scene(world, store, places, report);
-    if (!report.has_errors()) scene = world::read_scene(world, store, places, report);
+    if (report.has_errors()) return;
+    scene = world::read_scene(world, store, places, report);
+    triggers = world::read_triggers(world, scene, store, places, report);
   }
 };
 
@@ -36,9 +41,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     graph::Store out;
     Report report;
     world::write_scene(first.world, first.scene, out, report);
+    world::copy_declarations(first.store, out);
     const Loaded second(
         rdf::write_rdf(rdf::quads_of(out.view()), rdf::Syntax::kTurtle, out.terms()));
     if (second.report.has_errors()) std::abort();
+    if (second.triggers.size() != first.triggers.size()) std::abort();
   } catch (const Error&) {
   }
   return 0;
