@@ -111,8 +111,10 @@ class Keeper {
     }
     std::vector<std::uint32_t> order(slots.size());
     std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return slots[a].uses * slots[b].width > slots[b].uses * slots[a].width;
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const std::uint32_t of_a = slots[a].uses * slots[b].width;
+      const std::uint32_t of_b = slots[b].uses * slots[a].width;
+      return of_a != of_b ? of_a > of_b : a < b;
     });
     for (const std::uint32_t k : order) {
       Slot& slot = slots[k];
