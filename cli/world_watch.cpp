@@ -95,8 +95,16 @@ int watch(const SceneOptions& options, const WatchOptions& watch) {
     looking = std::make_unique<Looking>(scene, options.as);
     looking->look(now);
   };
-  const auto scene =
-      load_world(in_order, begin, [&](LoadedScene&, world::Stamp now) { looking->look(now); });
+  // Values of the same time are one look.
+  std::size_t written = 0;
+  const auto is_last_of_its_time = [&] {
+    const std::size_t at = written++;
+    return at + 1 == in_order.writes.size() ||
+           time_of(in_order.writes[at], options) != time_of(in_order.writes[at + 1], options);
+  };
+  const auto scene = load_world(in_order, begin, [&](LoadedScene&, world::Stamp now) {
+    if (is_last_of_its_time()) looking->look(now);
+  });
   begin(*scene, scene->now);
   if (watch.until_s) {
     const double from = world::seconds_of(scene->now.time_since_epoch());
