@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "refusal.h"
 #include "sinew/model/load.h"
 #include "sinew/world/scene.h"
 
@@ -88,16 +89,6 @@ std::string dae() {
  <scene><instance_visual_scene url="#scene"/></scene>
 </COLLADA>
 )";
-}
-
-template <typename Call>
-std::string refusal(Call&& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return to_string(error.problems().front());
-  }
-  return "none";
 }
 
 TEST(MeshFile, EveryFormatReachesAsFar) {

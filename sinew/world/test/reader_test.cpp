@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "allocations.h"
+#include "refusal.h"
 #include "sinew/graph/store.h"
 #include "sinew/model/load.h"
 #include "sinew/world/declared_rights.h"
@@ -37,16 +38,6 @@ struct Cell {
   RelationId lying;
   MeasurementId seen;
 };
-
-template <typename Call>
-std::string refusal(Call&& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return to_string(error.problems().front());
-  }
-  return "none";
-}
 
 TEST(Reader, OnlyDeclaredUsersGetAnAnswer) {
   Cell cell;

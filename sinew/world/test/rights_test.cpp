@@ -6,6 +6,7 @@
 
 #include <thread>
 
+#include "refusal.h"
 #include "sinew/graph/store.h"
 #include "sinew/model/load.h"
 #include "sinew/world/declared_rights.h"
@@ -20,17 +21,6 @@ const std::string kCamera = kCell + "camera-device", kController = kCell + "robo
 const std::string kTask = kCell + "task-controller";
 
 Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
-
-// What the call throws, as text; "none" where it does not.
-template <typename Call>
-std::string refusal(Call&& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return to_string(error.problems().front());
-  }
-  return "none";
-}
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

@@ -9,6 +9,7 @@
 
 #include "meshes.h"
 #include "random_shapes.h"
+#include "refusal.h"
 #include "sinew/base/error.h"
 #include "sinew/world/convex_distance.h"
 #include "sinew/world/edit.h"
@@ -25,16 +26,6 @@
 
 namespace sinew::world {
 namespace {
-
-template <typename Call>
-std::string refusal(Call&& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return to_string(error.problems().front());
-  }
-  return "none";
-}
 
 Stamp at_s(int seconds) { return Stamp(std::chrono::seconds(seconds)); }
 
