@@ -65,6 +65,7 @@ function(sinew_test name)
   endif()
   if(SINEW_SANITIZE)
     math(EXPR arg_TIMEOUT "4 * ${arg_TIMEOUT}")
+    target_compile_definitions(${name} PRIVATE SINEW_SANITIZED)  # for what cannot be tested then
   endif()
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT})

@@ -6,15 +6,6 @@
 
 #include "watching.h"
 
-// A sanitizer has a malloc of its own: gcc and clang say so in different words.
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-#define SINEW_SANITIZED
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
-#define SINEW_SANITIZED
-#endif
-#endif
-
 namespace {
 std::atomic<std::uint64_t> allocations = 0;
 thread_local bool counted = false;
@@ -29,7 +20,7 @@ void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* old, std::size_t size);
 void __libc_free(void* memory);
-#ifndef SINEW_SANITIZED
+#ifndef SINEW_SANITIZED  // a sanitizer has a malloc of its own
 void* malloc(std::size_t size) {
   count();
   return __libc_malloc(size);
