@@ -16,10 +16,9 @@ struct WatchOptions {
 };
 inline constexpr std::size_t kMaximumLooks = 1'000'000;
 
-// Writes the values in the order of their times, looks after all
-// of one time, and prints what happens: when, which trigger, how
-// often, for whom, and the action that whoever runs the scene would have bound to it. Relations
-// that hold are facts at each look. Throws Error as load_world.
+// Writes the values in the order of their times, looks after all of one time, and prints what
+// happens: when, which trigger, how often, for whom, and the action that whoever runs the scene
+// would have bound to it. Relations that hold are facts at each look. Throws Error as load_world.
 int watch(const SceneOptions& options, const WatchOptions& watch);
 
 }  // namespace sinew::cli
