@@ -28,7 +28,7 @@ struct QueryOptions {
   std::vector<std::string> give;  // each as parse_given has it
   std::string base;
   std::vector<std::string> tips;
-  std::string gravity;  // "x,y,z" in m/s^2, seen from the base; "input"; empty: the model's
+  std::string gravity;         // "x,y,z" in m/s^2, seen from the base; "input"; empty: the model's
   std::optional<double> snap;  // NormaliseOptions::snap_tolerance, where it is not round-off
   bool floating = false;
   bool forces_apart = false;

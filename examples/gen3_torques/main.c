@@ -1,6 +1,7 @@
-/* Evaluates the generated forward position kinematics and inverse dynamics of the Kinova Gen3 in three states and prints
- * them beside reference values: an independent Newton-Euler recursion in world coordinates over the published model, which
- * agrees with Orocos KDL to 3e-15 N m. Gravity is 9.81 m/s^2 downwards. SI units. */
+/* Evaluates the generated forward position kinematics and inverse dynamics of the Kinova Gen3 in
+ * three states and prints them beside reference values: an independent Newton-Euler recursion in
+ * world coordinates over the published model, which agrees with Orocos KDL to 3e-15 N m. Gravity
+ * is 9.81 m/s^2 downwards. SI units. */
 #include <math.h>
 #include <stdio.h>
 
@@ -12,10 +13,10 @@ enum { JOINTS = 7, STATES = 3, POSE = 12 };
 /* Position, velocity, acceleration: the order in which the generated code takes them. */
 static const double states[STATES][3 * JOINTS] = {
     {0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
-    {0.1, -0.2, 0.3, -0.4, 0.5, -0.6, 0.7, 0.5, -0.4, 0.3, -0.2, 0.1, 0.6, -0.7, 1.0, -0.8, 0.6,
-     -0.4, 0.2, -0.1, 0.3},
-    {-1.2, 0.9, 2.1, -1.7, 0.4, 1.3, -2.5, -1.1, 0.7, 1.9, -0.8, 2.3, -1.5, 0.6, 3.0, -2.0, 1.5,
-     4.0, -3.5, 2.5, -1.0},
+    {0.1, -0.2, 0.3,  -0.4, 0.5,  -0.6, 0.7,  0.5, -0.4, 0.3, -0.2,
+     0.1, 0.6,  -0.7, 1.0,  -0.8, 0.6,  -0.4, 0.2, -0.1, 0.3},
+    {-1.2, 0.9,  2.1, -1.7, 0.4,  1.3, -2.5, -1.1, 0.7, 1.9, -0.8,
+     2.3,  -1.5, 0.6, 3.0,  -2.0, 1.5, 4.0,  -3.5, 2.5, -1.0},
 };
 
 static const double reference_torques[STATES][JOINTS] = {
@@ -27,7 +28,8 @@ static const double reference_torques[STATES][JOINTS] = {
      0.17807489860605621, 0.98543655048281154, -0.053042364925385006},
 };
 
-/* Pose of link7-root with respect to link0-root: the columns x, y, z of the rotation, then the position. */
+/* Pose of link7-root with respect to link0-root: the columns x, y, z of the rotation, then the
+ * position. */
 static const double reference_poses[STATES][POSE] = {
     {0.54166277298414922, -0.66667893959172142, -0.51199671079801035, -0.66667893959172153,
      -0.71170036905359524, 0.221408618156194, -0.51199671079801035, 0.221408618156194,

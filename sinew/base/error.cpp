@@ -40,8 +40,9 @@ void Report::error(Place place, std::string iri, std::string what, std::string r
 }
 
 void Report::warning(Place place, std::string iri, std::string what, std::string remedy) {
+  const std::string no_code;
   add({std::move(place), std::move(iri), std::move(what), std::move(remedy), Severity::kWarning,
-       {}});
+       no_code});
 }
 
 void Report::add(Problem problem) {

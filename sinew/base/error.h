@@ -27,7 +27,7 @@ struct Problem {
   std::string what;    // what is wrong
   std::string remedy;  // what would be right
   Severity severity = Severity::kError;
-  std::string code;    // a standard's name for the error ("loading document failed"), if it has one
+  std::string code;  // a standard's name for the error ("loading document failed"), if it has one
 };
 
 // "file:line: IRI: what is wrong; what would be right", leaving out the parts that are not known.

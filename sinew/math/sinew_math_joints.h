@@ -42,7 +42,7 @@ void sinew_unit_force_with_rotor(const double D[1], const double I[1], double ou
  * matrix the rotors' inertias. */
 void sinew_couple_mass_matrix(const double* const in[], int count, double* M);
 void sinew_couple_jacobian(const double* const in[], int count, double* J);
-void sinew_couple_analytic_jacobian(const double *const in[], int count, double *J);
+void sinew_couple_analytic_jacobian(const double* const in[], int count, double* J);
 void sinew_couple_linear_jacobian(const double* const in[], int count, double* J);
 void sinew_couple_momentum_matrix(const double* const in[], int count, double* A);
 

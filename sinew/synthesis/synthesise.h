@@ -14,7 +14,7 @@
 namespace sinew::synthesis {
 
 struct Synthesis {
-  graph::Id algorithm;             // the algorithm's node, and the name of its graph
+  graph::Id algorithm;  // the algorithm's node, and the name of its graph
   // What that graph says, as algorithm::read would give it; nothing for a task's, to which more
   // than the steps is added.
   std::optional<algorithm::Algorithm> model;

@@ -22,9 +22,11 @@ std::size_t copy_declarations(const graph::Store& from, graph::Store& to) {
   // What is said of a declaration in a node of its own, that may have a name.
   std::vector<graph::Id> inner;
   for (const char* property : {"precondition", "threshold", "every"}) {
-    if (const auto id = terms.find_iri(std::string(kWorldNamespace) + property)) inner.push_back(id);
+    if (const auto id = terms.find_iri(std::string(kWorldNamespace) + property))
+      inner.push_back(id);
   }
-  for (const char* type : {"Component", "Allowance", "Prohibition", "SingleWriter", "Action", "Trigger"}) {
+  for (const char* type :
+       {"Component", "Allowance", "Prohibition", "SingleWriter", "Action", "Trigger"}) {
     const graph::Id of = terms.find_iri(std::string(kWorldNamespace) + type);
     if (!of || !is_a) continue;
     view.match({}, is_a, of, graph::Dataset::kUnion, [&](const graph::Quad& quad) {

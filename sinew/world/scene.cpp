@@ -11,7 +11,6 @@
 #include "sinew/world/edit.h"
 #include "sinew/world/reading.h"
 #include "sinew/world/scene_measurements.h"
-#include "sinew/world/scene_measurements.h"
 #include "sinew/world/scene_numbers.h"
 
 namespace sinew::world {

@@ -48,9 +48,8 @@ TEST(Operators, TieEverySymbolOfTheirOutputToAnInput) {
     for (const Attribute attribute :
          {Attribute::kOf, Attribute::kWrt, Attribute::kReference, Attribute::kSeenBy}) {
       if (!needs(quantity, attribute)) continue;
-      bool tied =
-          quantity.name.ends_with("-force") ||
-          op.name == "joint-acceleration-of-signal";  // of a joint that the builder names
+      bool tied = quantity.name.ends_with("-force") ||
+                  op.name == "joint-acceleration-of-signal";  // of a joint that the builder names
       for (const FrameRule& rule : op.rules)
         tied |= ((rule.left.port == out && rule.left.attribute == attribute) ||
                  (rule.right.port == out && rule.right.attribute == attribute));

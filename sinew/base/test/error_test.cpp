@@ -6,8 +6,12 @@ namespace sinew {
 namespace {
 
 TEST(Problem, NamesPlaceIriFaultAndRemedyInThatOrder) {
-  const Problem problem{{"robot.json", 12, 3}, "http://x/joint1", "has no unit", "add \"unit\"",
-                        Severity::kError, {}};
+  const Problem problem{.place = {"robot.json", 12, 3},
+                        .iri = "http://x/joint1",
+                        .what = "has no unit",
+                        .remedy = "add \"unit\"",
+                        .severity = Severity::kError,
+                        .code = {}};
   EXPECT_EQ(to_string(problem), "robot.json:12: http://x/joint1: has no unit; add \"unit\"");
 }
 

@@ -19,7 +19,7 @@ struct Emitted {
   std::string file;  // the .blocks file, below examples/conversions
   std::vector<std::pair<std::string, std::string>> conversions;  // source and target
   bool c = false;
-  std::string main = {};                          // the body of main(); CHECK(condition), NEAR(a, b)
+  std::string main = {};  // the body of main(); CHECK(condition), NEAR(a, b)
   std::vector<std::string> include_folders = {};  // besides the system's
   std::string declarations = {};                  // before main: what functions are made of
   bool allow_lossy = false;

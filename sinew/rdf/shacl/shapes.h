@@ -30,8 +30,8 @@ struct Constraint {
   // What is compared with or looked for: classes, a datatype, a node kind, a bound, a value, the
   // members of a list, predicates of a pair, ignored properties.
   std::vector<Id> values = {};
-  std::vector<ShapeIndex> shapes = {};    // of sh:not, sh:node, sh:property, the list of sh:and, …
-  std::uint64_t count = 0;                // of the cardinality and length components
+  std::vector<ShapeIndex> shapes = {};  // of sh:not, sh:node, sh:property, the list of sh:and, …
+  std::uint64_t count = 0;              // of the cardinality and length components
   std::vector<ShapeIndex> siblings = {};  // qualified components: shapes that a value must not have
   std::vector<std::string> languages = {};
   std::shared_ptr<const sparql::values::Regex> pattern = {};

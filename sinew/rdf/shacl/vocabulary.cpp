@@ -10,7 +10,7 @@ constexpr std::string_view kRdfs = "http://www.w3.org/2000/01/rdf-schema#";
 constexpr std::string_view kOwl = "http://www.w3.org/2002/07/owl#";
 
 struct Row {
-  Id Vocabulary::* term;
+  Id Vocabulary::*term;
   std::string_view name_space, name;
 };
 

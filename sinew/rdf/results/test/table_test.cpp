@@ -19,9 +19,9 @@ TEST(Table, AlignsColumnsAndShortensIris) {
             "?joint       ?position_rad\n"
             "-----------  ------------------\n"
             "arm:joint1   0.5\n"
-                "<http://y/>\n"
-                "_:b0         \"zwölf\\n\\u001B\"@de\n"
-                "(3 rows)\n");
+            "<http://y/>\n"
+            "_:b0         \"zwölf\\n\\u001B\"@de\n"
+            "(3 rows)\n");
 }
 
 TEST(Table, ShowsEvenAnIriThatNoFileCouldHold) {
