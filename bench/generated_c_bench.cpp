@@ -12,6 +12,7 @@
 #include "pipeline.h"
 #include "sinew/backend/c_target.h"
 #include "sinew/backend/compile.h"
+#include "sinew/base/cache_lines.h"
 #include "sinew/program/interface.h"
 
 namespace {
@@ -57,7 +58,7 @@ void measure(benchmark::State& state, const Subject& subject, bool batch) {
   const Compiled compiled = make(subject);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> number(-1.5, 1.5);
-  std::vector<double> in(compiled.in_size * kStates), out(compiled.out_size * kStates);
+  CacheLineVector<double> in(compiled.in_size * kStates), out(compiled.out_size * kStates);
   for (double& x : in) x = number(random);
   for (auto _ : state) {
     if (batch) {

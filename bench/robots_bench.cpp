@@ -24,6 +24,7 @@
 #include "sinew/backend/c_target.h"
 #include "sinew/backend/compile.h"
 #include "sinew/backend/jit.h"
+#include "sinew/base/cache_lines.h"
 #include "sinew/program/scalar_program.h"
 #include "temporary_urdf.h"
 
@@ -46,7 +47,7 @@ double since_ms(Clock::time_point start) {
 struct Subject {
   std::string name, solver;  // "rnea/hyq floating"
   std::size_t in_size = 0, out_size = 0;
-  std::vector<double> in, batch_in;  // sample after sample; input after input
+  CacheLineVector<double> in, batch_in;  // sample after sample; input after input
   std::shared_ptr<backend::LoadedCode> c;
   std::shared_ptr<backend::JitFunction> jit;
   std::vector<std::shared_ptr<peers::Peer>> peers;
@@ -168,7 +169,7 @@ double cold_ns(const Subject& s) {
 }
 
 void register_subject(const Subject& s) {
-  const auto out = std::make_shared<std::vector<double>>(s.out_size * kStates);
+  const auto out = std::make_shared<CacheLineVector<double>>(s.out_size * kStates);
   benchmark::RegisterBenchmark((s.name + "/c").c_str(), [s, out](benchmark::State& state) {
     each_state(state, [&](std::size_t k) { s.c->function()(&s.in[k * s.in_size], out->data()); });
     state.counters["operations"] = s.operations;

@@ -24,6 +24,7 @@
 #include "pipeline.h"
 #include "sinew/backend/c_target.h"
 #include "sinew/backend/jit.h"
+#include "sinew/base/cache_lines.h"
 #include "sinew/program/scalar_program.h"
 
 namespace {
@@ -139,7 +140,7 @@ struct Case {
   std::shared_ptr<backend::JitFunction> function;
   std::shared_ptr<Kdl> kdl;
   std::size_t inputs = 0, results = 0;
-  std::vector<double> in, batch_in;  // sample after sample; input after input
+  CacheLineVector<double> in, batch_in;  // sample after sample; input after input
 
   Case(const std::string& robot, const std::string& file, const std::string& solver)
       : name(solver + "/" + robot) {
@@ -193,7 +194,7 @@ void register_case(const Case& c) {
     }
   });
   benchmark::RegisterBenchmark((c.name + "/batch").c_str(), [c](benchmark::State& state) {
-    std::vector<double> out(c.results * kStates);
+    CacheLineVector<double> out(c.results * kStates);
     while (state.KeepRunningBatch(kStates)) {
       c.function->batch(c.batch_in.data(), out.data(), kStates);
       benchmark::DoNotOptimize(out.data());

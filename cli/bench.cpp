@@ -12,6 +12,7 @@
 #include "pipeline.h"
 #include "sinew/backend/c_target.h"
 #include "sinew/backend/jit.h"
+#include "sinew/base/cache_lines.h"
 #include "sinew/program/interface.h"
 #include "sinew/program/scalar_program.h"
 
@@ -52,7 +53,7 @@ Timing measure(const backend::BasicJitFunction<Number>& function, std::size_t in
                std::size_t results) {
   std::mt19937 random(1);
   std::uniform_real_distribution<Number> number(-1, 1);
-  std::vector<Number> in(inputs * kStates), out(results * kStates);
+  CacheLineVector<Number> in(inputs * kStates), out(results * kStates);
   for (Number& x : in) x = number(random);
   Timing timing;
   timing.single_ns = least_ns([&] {

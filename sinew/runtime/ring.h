@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-namespace sinew::runtime {
+#include "sinew/base/cache_lines.h"
 
-inline constexpr std::size_t kCacheLine = 64;
+namespace sinew::runtime {
 
 template <typename T>
 class Ring {

@@ -6,12 +6,12 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include "sinew/base/cache_lines.h"
 #include "sinew/program/program.h"
 
 namespace sinew::runtime {
@@ -25,10 +25,10 @@ class Storage {
   std::size_t size() const { return blocks_.size(); }
   const program::Variable& about(std::uint32_t block) const { return blocks_[block]; }
   std::span<double> numbers(std::uint32_t block) {
-    return {numbers_.get() + offsets_[block], blocks_[block].size};
+    return {numbers_.data() + offsets_[block], blocks_[block].size};
   }
   std::span<const double> numbers(std::uint32_t block) const {
-    return {numbers_.get() + offsets_[block], blocks_[block].size};
+    return {numbers_.data() + offsets_[block], blocks_[block].size};
   }
 
   // By IRI, or by name ("force.joint1"); kNoBlock when there is none.
@@ -38,13 +38,9 @@ class Storage {
   void reset();
 
  private:
-  struct Free {
-    void operator()(double* numbers) const;
-  };
   std::vector<program::Variable> blocks_;
   std::vector<std::size_t> offsets_;
-  std::size_t count_ = 0;
-  std::unique_ptr<double[], Free> numbers_;
+  CacheLineVector<double> numbers_;
   std::unordered_map<std::string_view, std::uint32_t> by_iri_, by_name_;
 };
 
