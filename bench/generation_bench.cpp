@@ -61,7 +61,8 @@ void run_once(const cli::ModelOptions& files, const cli::QueryOptions& query, Ti
   Watch watch(times);
   const auto models = cli::load(files);
   watch.stage(kLoad);
-  const graph::Id algorithm = cli::algorithm_of(*models, files, query);
+  const graph::Id algorithm =
+      cli::algorithm_of(*models, files, query, nullptr, synthesis::AlgorithmGraph::kIfNeeded);
   watch.stage(kSynthesise);
   const program::Program program = cli::lowered(*models, algorithm, query.solver);
   watch.stage(kLower);

@@ -167,9 +167,10 @@ void normalise(Models& models, const synthesis::Query& query, std::optional<doub
 }
 
 // Synthesis knows nodes, not files: what is at fault gets the place where it was written.
-synthesis::Synthesis synthesised(Models& models, const synthesis::Query& query) {
+synthesis::Synthesis synthesised(Models& models, const synthesis::Query& query,
+                                 synthesis::AlgorithmGraph graph) {
   try {
-    return synthesis::synthesise(models.store, query, &models.places);
+    return synthesis::synthesise(models.store, query, &models.places, graph);
   } catch (const Error& error) {
     Report report;
     for (Problem problem : error.problems()) {
@@ -186,7 +187,7 @@ synthesis::Synthesis synthesised(Models& models, const synthesis::Query& query) 
 }  // namespace
 
 graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOptions& options,
-                       std::vector<std::string>* why) {
+                       std::vector<std::string>* why, synthesis::AlgorithmGraph graph) {
   if (!names_query(options)) {
     const auto task = task_of(models);
     const bool has_algorithm = !algorithm::find_algorithms(models.store.view()).empty();
@@ -198,18 +199,19 @@ graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOpt
       return algorithm;
     }
     if (!task->solver)
-      return algorithm_of(models, query_of_signals(options, task), why, options.snap);
-    return algorithm_of(models, query_of_task(models, options, task), why, options.snap);
+      return algorithm_of(models, query_of_signals(options, task), why, options.snap, graph);
+    return algorithm_of(models, query_of_task(models, options, task), why, options.snap, graph);
   }
-  return algorithm_of(models, query_of(queries_of(files, options), options), why, options.snap);
+  return algorithm_of(models, query_of(queries_of(files, options), options), why, options.snap,
+                      graph);
 }
 
 graph::Id algorithm_of(Models& models, const synthesis::Query& asked, std::vector<std::string>* why,
-                       std::optional<double> snap) {
+                       std::optional<double> snap, synthesis::AlgorithmGraph graph) {
   synthesis::Query query = asked;
   if (!query.task) query.task = task_of(models);
   normalise(models, query, snap);
-  synthesis::Synthesis synthesis = synthesised(models, query);
+  synthesis::Synthesis synthesis = synthesised(models, query, graph);
   for (const std::string& note : synthesis.notes) print_note(note);
   if (why != nullptr) *why = std::move(synthesis.why);
   models.made.reset();
@@ -230,7 +232,8 @@ program::Program program_of(Models& models, const ModelOptions& files, const Que
     program::add_derivatives(program, options.derivatives);
     return program;
   }
-  const graph::Id algorithm = algorithm_of(models, files, options);
+  const graph::Id algorithm =
+      algorithm_of(models, files, options, nullptr, synthesis::AlgorithmGraph::kIfNeeded);
   std::string program_name = name;
   if (program_name.empty()) program_name = options.solver.empty() ? "program" : options.solver;
   std::replace(program_name.begin(), program_name.end(), ',', '_');

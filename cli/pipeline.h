@@ -14,6 +14,7 @@
 #include "sinew/graph/store.h"
 #include "sinew/program/program.h"
 #include "sinew/synthesis/query.h"
+#include "sinew/synthesis/synthesise.h"
 
 namespace sinew::cli {
 
@@ -23,7 +24,7 @@ struct Models {
   graph::Places places;
   bool lenient = false;  // ModelOptions::lenient
   // The algorithm that was made last, which need not be read from the graph as long as the graph is
-  // what it was then.
+  // what it was then; it may not be there.
   struct Made {
     algorithm::Algorithm model;
     graph::Stamp version;
@@ -37,11 +38,14 @@ std::unique_ptr<Models> load(const ModelOptions& options);
 // The algorithm that answers the query, in its own graph of the store; or the one that the files
 // hold, when no query is named. Notes go to standard error. Returns the algorithm's node.
 // `why` gets a line for each step that the planner chose; `snap` is QueryOptions::snap.
+// AlgorithmGraph::kIfNeeded: for whoever only has it lowered.
 graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOptions& query,
-                       std::vector<std::string>* why = nullptr);
+                       std::vector<std::string>* why = nullptr,
+                       synthesis::AlgorithmGraph graph = synthesis::AlgorithmGraph::kWritten);
 graph::Id algorithm_of(Models& models, const synthesis::Query& query,
                        std::vector<std::string>* why = nullptr,
-                       std::optional<double> snap = std::nullopt);
+                       std::optional<double> snap = std::nullopt,
+                       synthesis::AlgorithmGraph graph = synthesis::AlgorithmGraph::kWritten);
 
 // Each query that the options name, as it is; and all of them as one, with the options' base, tips,
 // gravity and policies.

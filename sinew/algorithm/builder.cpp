@@ -8,8 +8,9 @@ namespace sinew::algorithm {
 
 using graph::Id;
 
-Builder::Builder(graph::Store& store, graph::Transaction& transaction, Id algorithm)
-    : terms_(store.terms()), transaction_(transaction), names_(terms_) {
+Builder::Builder(graph::Store& store, graph::Transaction& transaction, Id algorithm,
+                 BuilderWrites writes)
+    : terms_(store.terms()), transaction_(transaction), names_(terms_), writes_(writes) {
   algorithm_.id = algorithm;
   bool empty = true;
   transaction_.view().match_in({}, {}, {}, algorithm, [&](const graph::Quad&) {
@@ -23,7 +24,7 @@ Builder::Builder(graph::Store& store, graph::Transaction& transaction, Id algori
                         "clear its graph first",
                         {},
                         {}});
-  add(algorithm, names_.type, names_.algorithm);
+  if (writes_ == BuilderWrites::kGraph) add(algorithm, names_.type, names_.algorithm);
 }
 
 void Builder::add(Id subject, Id predicate, Id object) {
@@ -73,7 +74,7 @@ std::uint32_t Builder::block(const BlockSpec& spec) {
 
   const auto index = static_cast<std::uint32_t>(algorithm_.blocks.size());
   by_slot_.emplace(key, index);
-  write(block, key.slot);
+  if (writes_ == BuilderWrites::kGraph) write(block, key.slot);
   algorithm_.blocks.push_back(std::move(block));
   return index;
 }
@@ -143,7 +144,7 @@ void Builder::append(const Operator& op, std::vector<std::uint32_t> arguments,
   report.throw_if_errors();
   algorithm_.closures.push_back(std::move(closure));
   algorithm_.schedule.push_back(index);
-  write(algorithm_.closures.back());
+  if (writes_ == BuilderWrites::kGraph) write(algorithm_.closures.back());
 }
 
 void Builder::write(const Closure& closure) {
@@ -182,6 +183,13 @@ void Builder::rename(std::uint32_t block, std::string name) {
 }
 
 void Builder::finish() {
+  if (writes_ == BuilderWrites::kGraph) write_end();
+  Report report;
+  check_algorithm(terms_, algorithm_, report);
+  report.throw_if_errors();
+}
+
+void Builder::write_end() {
   std::vector<Id> chain;
   chain.reserve(algorithm_.schedule.size());
   for (const std::uint32_t closure : algorithm_.schedule)
@@ -197,9 +205,6 @@ void Builder::finish() {
   add(schedule, names_.type, names_.schedule_type);
   add(schedule, names_.trigger_chain,
       write_list(terms_, transaction_, names_, algorithm_.id, chain));
-  Report report;
-  check_algorithm(terms_, algorithm_, report);
-  report.throw_if_errors();
 }
 
 Id write_list(graph::Terms& terms, graph::Transaction& transaction, const Names& names, Id graph,

@@ -1,4 +1,5 @@
-// Writes an algorithm model into its own named graph, through a transaction of the caller's.
+// Writes an algorithm model into its own named graph, through a transaction of the caller's; or
+// only makes the model, for whoever lowers it and asks nothing of the graph.
 //
 // A data block is known by its slot (what it is for) and the model element that it belongs to; a
 // closure by its operator and its arguments. Asking for one that is there gives that one, so what
@@ -41,10 +42,13 @@ struct Cause {
   graph::Id about;  // the model element
 };
 
+enum class BuilderWrites : std::uint8_t { kGraph, kNothing };
+
 class Builder {
  public:
   // `algorithm` names the algorithm and its graph, which must be empty.
-  Builder(graph::Store& store, graph::Transaction& transaction, graph::Id algorithm);
+  Builder(graph::Store& store, graph::Transaction& transaction, graph::Id algorithm,
+          BuilderWrites writes = BuilderWrites::kGraph);
 
   // The block with this slot and element, made if need be.
   std::uint32_t block(const BlockSpec& spec);
@@ -96,6 +100,7 @@ class Builder {
   void add(graph::Id subject, graph::Id predicate, graph::Id object);
   void write(const Block& block, graph::Id slot);
   void write(const Closure& closure);
+  void write_end();
   void append(const Operator& op, std::vector<std::uint32_t> arguments,
               std::vector<std::uint32_t> counts, const Cause& cause);
   std::string unique_name(std::string_view slot, std::string_view label);
@@ -103,6 +108,7 @@ class Builder {
   graph::Terms& terms_;
   graph::Transaction& transaction_;
   Names names_;
+  BuilderWrites writes_;
   Algorithm algorithm_;
   std::unordered_map<Key, std::uint32_t, KeyHash> by_slot_;
   std::unordered_map<graph::Id, std::uint32_t> closures_;

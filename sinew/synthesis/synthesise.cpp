@@ -196,7 +196,8 @@ Robot read_floating_robot(graph::Store& store, const graph::View& view, const Ro
 
 }  // namespace
 
-Synthesis synthesise(graph::Store& store, const Query& query, const graph::Places* places) {
+Synthesis synthesise(graph::Store& store, const Query& query, const graph::Places* places,
+                     AlgorithmGraph graph) {
   graph::Transaction transaction = store.begin();
   const graph::View view = transaction.view();
   Robot robot = read_robot(store, view);
@@ -251,7 +252,10 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   result.algorithm =
       terms.derived(terms.iri(std::string(kAlgorithmNamespace) + "Algorithm"), facts);
   transaction.clear(result.algorithm);
-  algorithm::Builder builder(store, transaction, result.algorithm);
+  const bool writes = graph == AlgorithmGraph::kWritten || control || !models.steps.empty();
+  algorithm::Builder builder(
+      store, transaction, result.algorithm,
+      writes ? algorithm::BuilderWrites::kGraph : algorithm::BuilderWrites::kNothing);
   Context context{
       .store = store,
       .view = view,
@@ -292,7 +296,7 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
     transaction.add({result.algorithm, terms.iri(std::string(kAlgorithmNamespace) + "period"),
                      terms.real(*control->period_s), result.algorithm});
   floating.reset();
-  transaction.commit();
+  if (writes) transaction.commit();  // otherwise nothing of it stays
   result.why = plan.why;
   result.why.insert(result.why.end(), why_held.begin(), why_held.end());
   if (control && control->task->robot_interface) attach(store, *control, result);

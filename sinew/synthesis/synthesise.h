@@ -23,12 +23,19 @@ struct Synthesis {
   TraversalCounts counts;
 };
 
+// Whether the algorithm becomes a graph of the store. Its triples take a third of the time of the
+// synthesis; whoever only lowers `Synthesis::model` can do without.
+enum class AlgorithmGraph : std::uint8_t {
+  kWritten,
+  kIfNeeded,  // for want of a model, and where steps are data: their queries may look at the graph
+};
+
 // Writes the algorithm in one transaction: all of it or, when Error is thrown, nothing. The same
 // model and query give the same nodes; an algorithm of the same query that is there already is
 // replaced. A query that cannot be answered is refused with all that is missing and how to give it.
 // Steps that are in the graph (step_models.h) stand beside those that come with Sinew; `places`
 // says where they, and whatever else is at fault, were written.
-Synthesis synthesise(graph::Store& store, const Query& query,
-                     const graph::Places* places = nullptr);
+Synthesis synthesise(graph::Store& store, const Query& query, const graph::Places* places = nullptr,
+                     AlgorithmGraph graph = AlgorithmGraph::kWritten);
 
 }  // namespace sinew::synthesis

@@ -75,10 +75,15 @@ TEST_F(SynthesiseTest, HandsOutForcesInJointOrderWithTheUnitOfTheJoint) {
 
 TEST_F(SynthesiseTest, HandsOutInMemoryWhatTheGraphSays) {
   for (const char* solver : {"fpk", "jacobian", "rnea", "aba", "crba", "energy"}) {
-    const Synthesis synthesis = synthesise(store_, named_query(solver));
-    const algorithm::Algorithm graph = algorithm::read_checked(store_.view(), synthesis.algorithm);
-    ASSERT_TRUE(synthesis.model.has_value());
-    const algorithm::Algorithm& memory = *synthesis.model;
+    // Alone it leaves nothing in the graph.
+    const graph::Stamp before = store_.view().stamp();
+    const Synthesis alone =
+        synthesise(store_, named_query(solver), nullptr, AlgorithmGraph::kIfNeeded);
+    EXPECT_TRUE(store_.view().stamp() == before);
+    ASSERT_TRUE(alone.model.has_value());
+    const algorithm::Algorithm& memory = *alone.model;
+    const Synthesis written = synthesise(store_, named_query(solver));
+    const algorithm::Algorithm graph = algorithm::read_checked(store_.view(), written.algorithm);
     EXPECT_EQ(memory.id, graph.id);
     EXPECT_EQ(memory.schedule, graph.schedule);
     const auto facts = [](const Block& b) {
