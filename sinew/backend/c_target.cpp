@@ -186,6 +186,8 @@ std::vector<std::string> variable_identifiers(const program::Program& program) {
   std::vector<std::string> names;
   std::unordered_set<std::string> taken = {"in", "out",  "state", "n",      "i",
                                            "k",  "in_k", "out_k", "state_k"};
+  names.reserve(program.variables.size());
+  taken.reserve(taken.size() + program.variables.size());
   for (const program::Variable& v : program.variables) {
     const std::string base = c_identifier(v.name);
     std::string name = base;

@@ -42,18 +42,23 @@ JsonText& JsonText::value(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   separate();
   text_ += '"';
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      text_ += '\\';
-      text_ += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
+  std::size_t written = 0;  // what needs no escape is appended at once
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    const bool is_control = static_cast<unsigned char>(c) < 0x20;
+    if (c != '"' && c != '\\' && !is_control) continue;
+    text_.append(text, written, k - written);
+    written = k + 1;
+    if (is_control) {
       text_ += "\\u00";
       text_ += kDigits[static_cast<unsigned char>(c) >> 4U];
       text_ += kDigits[static_cast<unsigned char>(c) & 15U];
     } else {
+      text_ += '\\';
       text_ += c;
     }
   }
+  text_.append(text, written);
   text_ += '"';
   return *this;
 }

@@ -2,6 +2,8 @@
 // values, for which a document in memory takes ten times as long.
 #pragma once
 
+#include <array>
+#include <charconv>
 #include <concepts>
 #include <string>
 #include <string_view>
@@ -24,7 +26,9 @@ class JsonText {
   template <std::integral Integer>
   JsonText& value(Integer number) {
     separate();
-    text_ += std::to_string(number);
+    std::array<char, 24> digits;  // more than those of any integer
+    text_.append(digits.data(),
+                 std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
     return *this;
   }
   template <typename Value>

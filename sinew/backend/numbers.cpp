@@ -42,6 +42,10 @@ constexpr std::string_view kReserved[] = {
     "HUGE_VAL",     "cosf",      "sinf",          "sqrtf",
     "sincos",       "sincosf"};
 
+constexpr std::size_t kLongestReserved =
+    std::max_element(std::begin(kReserved), std::end(kReserved),
+                     [](auto a, auto b) { return a.size() < b.size(); }) -> size();
+
 template <typename Number>
 std::string shortest(Number value) {
   std::array<char, 32> buffer{};
@@ -64,9 +68,12 @@ std::string upper_case(std::string text) {
 }
 
 std::string c_identifier(std::string_view text) {
-  std::string result;
-  if (text.empty() || is_digit(text.front())) result += '_';
-  for (const char c : text) result += is_letter(c) || is_digit(c) ? c : '_';
+  std::string result(text.empty() || is_digit(text.front()) ? "_" : "");
+  const std::size_t first = result.size();
+  result += text;
+  for (std::size_t k = first; k < result.size(); ++k) {
+    if (!is_letter(result[k]) && !is_digit(result[k])) result[k] = '_';
+  }
   return result;
 }
 
@@ -77,7 +84,7 @@ bool is_c_function_name(std::string_view text) {
   }
   static const std::unordered_set<std::string_view> reserved(std::begin(kReserved),
                                                              std::end(kReserved));
-  return !reserved.contains(text);
+  return text.size() > kLongestReserved || !reserved.contains(text);
 }
 
 std::string c_comment(std::string_view text) {

@@ -1,6 +1,6 @@
 #include "sinew/backend/render.h"
 
-#include <kainjow/mustache.hpp>
+#include <algorithm>
 #include <span>
 #include <utility>
 
@@ -12,24 +12,166 @@ std::span<const std::pair<std::string_view, std::string_view>> embedded_template
 
 namespace {
 
-using kainjow::mustache::data;
-using kainjow::mustache::mustache;
+constexpr std::size_t kNowhere = std::string_view::npos;
 
-data to_data(const Fields& fields) {
-  data result{data::type::object};
-  for (const auto& [name, value] : fields.values) {
-    if (const auto* text = std::get_if<std::string>(&value)) {
-      result.set(name, *text);
-    } else if (const auto* present = std::get_if<bool>(&value)) {
-      result.set(name, data{*present ? data::type::bool_true : data::type::bool_false});
-    } else {
-      data list{data::type::list};
-      for (const Fields& item : std::get<FieldList>(value)) list.push_back(to_data(item));
-      result.set(name, list);
+struct Tag {
+  enum class Kind : std::uint8_t { kNone, kVariable, kSection, kInverted, kEnd, kComment };
+  Kind kind = Kind::kNone;  // kNone: the text ends
+  std::string_view name;
+  std::size_t begin = 0, end = 0;  // in the template
+};
+
+// Writes while it reads: templates are short, and each is filled once in a process.
+class Renderer {
+ public:
+  Renderer(std::string_view path, std::string_view text) : path_(path), text_(text) {
+    result_.reserve(text.size());
+  }
+
+  std::string run(const Fields& fields) {
+    fields_.push_back(&fields);
+    const Tag end = fill(0);
+    if (end.kind != Tag::Kind::kNone) malformed("section " + name(end) + " ends but has not begun");
+    end_line();
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] void malformed(const std::string& what) const {
+    throw Error(Problem{{std::string(path_), 0, 0},
+                        {},
+                        "malformed template: " + what,
+                        "correct the template",
+                        Severity::kError,
+                        {}});
+  }
+  static std::string name(const Tag& tag) { return "'" + std::string(tag.name) + "'"; }
+
+  // The first tag at or behind this place.
+  Tag next_tag(std::size_t from) const {
+    Tag tag;
+    tag.begin = text_.find("{{", from);
+    if (tag.begin == kNowhere) return tag;
+    const std::size_t inside = tag.begin + 2;
+    const char first = inside < text_.size() ? text_[inside] : '\0';
+    const std::string_view close = first == '{' ? "}}}" : "}}";
+    const std::size_t until = text_.find(close, inside);
+    if (until == kNowhere) malformed("a tag does not end");
+    tag.end = until + close.size();
+    tag.kind = first == '#'   ? Tag::Kind::kSection
+               : first == '^' ? Tag::Kind::kInverted
+               : first == '/' ? Tag::Kind::kEnd
+               : first == '!' ? Tag::Kind::kComment
+                              : Tag::Kind::kVariable;
+    const bool marked = first == '{' || tag.kind != Tag::Kind::kVariable;
+    tag.name = text_.substr(inside + (marked ? 1 : 0), until - inside - (marked ? 1 : 0));
+    return tag;
+  }
+
+  // Fills in what stands from here to the end of the section; returns the tag that ends it.
+  Tag fill(std::size_t from) {
+    for (;;) {
+      const Tag tag = next_tag(from);
+      plain(text_.substr(from, tag.kind == Tag::Kind::kNone ? kNowhere : tag.begin - from));
+      switch (tag.kind) {
+        case Tag::Kind::kNone:
+        case Tag::Kind::kEnd:
+          return tag;
+        case Tag::Kind::kComment:
+          break;
+        case Tag::Kind::kVariable:
+          if (const auto* value = find(tag.name))
+            if (const auto* text = std::get_if<std::string>(value)) result_ += *text;
+          break;
+        case Tag::Kind::kSection:
+        case Tag::Kind::kInverted:
+          from = section(tag);
+          continue;
+      }
+      from = tag.end;
     }
   }
-  return result;
-}
+
+  void plain(std::string_view text) {
+    for (std::size_t end; (end = text.find('\n')) != kNowhere; text.remove_prefix(end + 1)) {
+      result_ += text.substr(0, end);
+      if (end_line()) result_ += '\n';
+      line_ = result_.size();
+    }
+    result_ += text;
+  }
+
+  // A line of nothing but sections that were filled in is left out; returns whether it stays.
+  bool end_line() {
+    const bool stays = !has_section_ || result_.find_first_not_of(" \t", line_) != kNowhere;
+    if (!stays) result_.resize(line_);
+    has_section_ = false;
+    return stays;
+  }
+
+  // Returns the place behind it.
+  std::size_t section(const Tag& begin) {
+    const auto* value = find(begin.name);
+    const auto* flag = value == nullptr ? nullptr : std::get_if<bool>(value);
+    const auto* list = value == nullptr ? nullptr : std::get_if<FieldList>(value);
+    const bool none =
+        value == nullptr || (flag != nullptr && !*flag) || (list != nullptr && list->empty());
+    if (none != (begin.kind == Tag::Kind::kInverted)) return behind(begin);
+    if (none || list == nullptr) return once(begin);
+    std::size_t end = 0;
+    for (const Fields& item : *list) {
+      fields_.push_back(&item);
+      end = once(begin);
+      fields_.pop_back();
+    }
+    return end;
+  }
+
+  std::size_t once(const Tag& begin) {
+    has_section_ = true;
+    const Tag end = fill(begin.end);
+    check_end(begin, end);
+    has_section_ = true;  // of the line on which it ends
+    return end.end;
+  }
+
+  void check_end(const Tag& begin, const Tag& end) const {
+    if (end.kind == Tag::Kind::kNone || end.name != begin.name)
+      malformed("section " + name(begin) + " does not end");
+  }
+
+  // The place behind a section that is left out.
+  std::size_t behind(const Tag& begin) const {
+    std::size_t from = begin.end;
+    for (;;) {
+      const Tag tag = next_tag(from);
+      if (tag.kind == Tag::Kind::kSection || tag.kind == Tag::Kind::kInverted) {
+        from = behind(tag);
+        continue;
+      }
+      if (tag.kind == Tag::Kind::kNone || tag.kind == Tag::Kind::kEnd) {
+        check_end(begin, tag);
+        return tag.end;
+      }
+      from = tag.end;
+    }
+  }
+
+  // The innermost of this name.
+  const Fields::Value* find(std::string_view name) const {
+    for (std::size_t k = fields_.size(); k-- > 0;) {
+      const auto found = fields_[k]->values.find(name);
+      if (found != fields_[k]->values.end()) return &found->second;
+    }
+    return nullptr;
+  }
+
+  std::string_view path_, text_;
+  std::vector<const Fields*> fields_;  // the innermost is the last one
+  std::string result_;
+  std::size_t line_ = 0;      // where the current one begins in the result
+  bool has_section_ = false;  // the current line
+};
 
 }  // namespace
 
@@ -45,18 +187,12 @@ std::string_view template_text(std::string_view path) {
                       {}});
 }
 
+std::string fill_template(std::string_view path, std::string_view text, const Fields& fields) {
+  return Renderer(path, text).run(fields);
+}
+
 std::string render(std::string_view path, const Fields& fields) {
-  mustache parsed{std::string(template_text(path))};
-  parsed.set_custom_escape([](const std::string& text) { return text; });
-  std::string result = parsed.render(to_data(fields));
-  if (!parsed.is_valid()) {
-    throw Error(Problem{{std::string(path), 0, 0},
-                        {},
-                        "malformed template: " + parsed.error_message(),
-                        "correct the template",
-                        Severity::kError,
-                        {}});
-  }
+  std::string result = fill_template(path, template_text(path), fields);
   // The line of the comment that every template begins with.
   if (!result.empty() && result.front() == '\n') result.erase(0, 1);
   return result;

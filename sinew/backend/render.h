@@ -1,6 +1,11 @@
 // Fills the templates of `templates/`, which hold no logic: names, sections and lists only.
 // Everything that depends on the program is decided here, in C++; how the result looks is decided
 // there.
+//
+// They are Mustache (https://mustache.github.io/mustache.5.html), of which these are known:
+// {{name}} and {{{name}}} alike, since nothing is escaped; {{#name}} and {{^name}} to {{/name}};
+// {{! comment}}. A line that held the ends of sections and is blank when they are filled in is left
+// out.
 #pragma once
 
 #include <map>
@@ -17,7 +22,8 @@ using FieldList = std::vector<Fields>;
 // What a template's {{name}} stands for: a text, a section that is there or not, or a repeated
 // section.
 struct Fields {
-  std::map<std::string, std::variant<std::string, bool, FieldList>> values;
+  using Value = std::variant<std::string, bool, FieldList>;
+  std::map<std::string, Value, std::less<>> values;
 
   void text(const std::string& name, std::string value) { values[name] = std::move(value); }
   void number(const std::string& name, std::size_t value) { values[name] = std::to_string(value); }
@@ -30,5 +36,8 @@ std::string_view template_text(std::string_view path);
 
 // Throws Error if the template is malformed.
 std::string render(std::string_view path, const Fields& fields);
+
+// The same for a text; `path` names it in errors.
+std::string fill_template(std::string_view path, std::string_view text, const Fields& fields);
 
 }  // namespace sinew::backend
