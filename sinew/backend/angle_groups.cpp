@@ -46,7 +46,7 @@ void mark(const Dag& dag, std::uint32_t i, std::vector<bool>& marked) {
 
 AngleGroups group_angles(const program::Computation& computation) {
   const Dag& dag = computation.dag;
-  const std::vector<bool> live = program::live_nodes(computation);
+  const std::vector<std::uint8_t> live = program::live_nodes(computation);
   std::vector<std::uint32_t> order;
   if (computation.order.empty()) {
     for (std::uint32_t i = 0; i < dag.size(); ++i) order.push_back(i);

@@ -82,7 +82,7 @@ class LimbEmitter {
   std::string upper_, scalar_, suffix_;
   std::vector<std::string> types_;               // of each region's values
   std::vector<std::vector<std::string>> names_;  // [region][node]: or the text of a constant
-  std::vector<std::vector<bool>> live_;
+  std::vector<std::vector<std::uint8_t>> live_;
   std::vector<std::vector<std::vector<std::uint32_t>>> results_of_;  // [region][node]
   std::vector<std::uint32_t> later_;  // results that no region computes
   std::size_t at_ = 0;                // the region

@@ -24,7 +24,8 @@ LimbNodes::LimbNodes(const LimbProgram& program) {
   }
 }
 
-std::vector<std::uint32_t> limb_order(const LimbRegion& region, const std::vector<bool>& live) {
+std::vector<std::uint32_t> limb_order(const LimbRegion& region,
+                                      const std::vector<std::uint8_t>& live) {
   std::vector<std::uint32_t> order = region.computation.order;
   if (order.empty()) {
     order.resize(region.computation.dag.size());

@@ -27,7 +27,7 @@ class LimbNodes {
 
 // The nodes of a region that have statements, in their order. `live`: of all nodes.
 std::vector<std::uint32_t> limb_order(const program::LimbRegion& region,
-                                      const std::vector<bool>& live);
+                                      const std::vector<std::uint8_t>& live);
 
 // One step for each of those nodes, region after region, with the inputs that it is the first to
 // need; and one in which the results of `later` are written.

@@ -11,7 +11,7 @@ using program::Op;
 
 GraphInterpreter::GraphInterpreter(const program::Computation& computation) {
   const program::Dag& dag = computation.dag;
-  const std::vector<bool> live = program::live_nodes(computation);
+  const std::vector<std::uint8_t> live = program::live_nodes(computation);
   std::vector<std::uint32_t> place(dag.size());
   const auto operand = [&](program::Ref ref) { return Operand{place[ref.node()], ref.negative()}; };
   // Operands have smaller indices than the nodes that use them.

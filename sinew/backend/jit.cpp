@@ -171,7 +171,7 @@ BasicJitFunction<Number> compile(const program::ScalarProgram& program, const Ji
 }
 
 void check_floats(const program::Computation& computation) {
-  const std::vector<bool> live = program::live_nodes(computation);
+  const std::vector<std::uint8_t> live = program::live_nodes(computation);
   for (std::uint32_t i = 0; i < computation.dag.size(); ++i) {
     const program::Node& node = computation.dag.node(i);
     if (live[i] && node.op == program::Op::kConstant) {

@@ -1,6 +1,7 @@
 #include "sinew/program/kernels.h"
 
 #include <algorithm>
+#include <unordered_map>
 #include <vector>
 
 #include "sinew/math/articulated_inertia.h"
@@ -289,11 +290,13 @@ std::span<const Kernel> kernels() {
 }
 
 const Kernel* find_kernel(std::string_view operation) {
-  const std::span<const Kernel> rows = kernels();
-  const auto at = std::lower_bound(
-      rows.begin(), rows.end(), operation,
-      [](const Kernel& kernel, std::string_view name) { return kernel.operation < name; });
-  return at != rows.end() && at->operation == operation ? &*at : nullptr;
+  static const auto by_name = [] {
+    std::unordered_map<std::string_view, const Kernel*> rows;
+    for (const Kernel& kernel : kernels()) rows.emplace(kernel.operation, &kernel);
+    return rows;
+  }();
+  const auto at = by_name.find(operation);
+  return at == by_name.end() ? nullptr : at->second;
 }
 
 std::string support_function(std::string_view operation) {

@@ -74,7 +74,7 @@ std::vector<Ref> graft(const Dag& from, Dag& to, std::uint32_t first,
 // Drops the kept values, numbered from `first`, that the evaluation does not read.
 void drop_unread(Hoisted& parts, std::uint32_t first) {
   const Computation& evaluate = parts.evaluate;
-  const std::vector<bool> live = live_nodes(evaluate);
+  const std::vector<std::uint8_t> live = live_nodes(evaluate);
   std::vector<bool> read(parts.update.results.size(), false);
   for (std::uint32_t i = 0; i < evaluate.dag.size(); ++i) {
     const Node& node = evaluate.dag.node(i);

@@ -65,7 +65,7 @@ class ComputationEmitter {
   Load load_;
   Ir ir_;
   bool fuse_;
-  std::vector<bool> live_;
+  std::vector<std::uint8_t> live_;
   std::vector<std::uint32_t> uses_;
   std::vector<LLVMValueRef> values_;  // by node
   std::vector<LLVMValueRef> sine_;    // by the angle's node

@@ -57,17 +57,15 @@ void Dag::rehash(std::size_t size) {
   }
 }
 
-Ref Dag::intern(Node node) {
+Ref Dag::intern(const Node& node) {
   const std::uint64_t mask = table_.size() - 1;
   const std::uint64_t h = hash(node);
   std::uint64_t at = h & mask;
-  while (table_[at] != 0) {
+  for (std::uint32_t there; (there = table_[at]) != 0; at = (at + 1) & mask) {
     // Nodes whose hashes differ in the bits that are kept need not be looked at.
-    if (table_[at] >> kNodeBits == h >> 56U) {
-      const std::uint32_t found = (table_[at] & kNodeMask) - 1;
-      if (same(nodes_[found], node)) return Ref::of(found);
-    }
-    at = (at + 1) & mask;
+    if (there >> kNodeBits != h >> 56U) continue;
+    const std::uint32_t found = (there & kNodeMask) - 1;
+    if (same(nodes_[found], node)) return Ref::of(found);
   }
   if (nodes_.size() >= kMaximumNodes) {
     throw Error(Problem{
@@ -78,9 +76,9 @@ Ref Dag::intern(Node node) {
         Severity::kError,
         {}});
   }
-  node.origin = arity(node.op) == 0 ? kNoOrigin : origin_;
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back(node);
+  nodes_.back().origin = arity(node.op) == 0 ? kNoOrigin : origin_;
   table_[at] = entry(index, h);
   if (nodes_.size() * 2 > table_.size()) rehash(table_.size() * 2);
   return Ref::of(index);
@@ -106,6 +104,8 @@ Ref Dag::input(std::uint32_t index) {
 }
 
 Ref Dag::add(Ref a, Ref b) {
+  // What most additions are: of two nodes that are neither constants nor multiples of the same one.
+  if (!is_constant(a) && !is_constant(b) && unscaled(a) != unscaled(b)) return new_sum(a, b);
   if (is_constant(a) && is_constant(b)) {
     return constant(sum_of_constants(constant_value(a), constant_value(b)));
   }
@@ -138,8 +138,16 @@ Ref Dag::add(Ref a, Ref b) {
   const auto [ca, xa] = scaled(a);
   const auto [cb, xb] = scaled(b);
   if (xa == xb) return multiply(add(constant(ca), constant(cb)), xa);
+  return new_sum(a, b);
+}
 
-  // Operands by index; the first one positive.
+std::uint32_t Dag::unscaled(Ref ref) const {
+  const Node& n = node(ref);
+  return n.op == Op::kMultiply && is_constant(n.a) ? n.b.node() : ref.node();
+}
+
+// Operands by index; the first one positive.
+Ref Dag::new_sum(Ref a, Ref b) {
   if (a.node() > b.node()) std::swap(a, b);
   const bool flip = a.negative();
   Node node;
@@ -150,6 +158,11 @@ Ref Dag::add(Ref a, Ref b) {
 }
 
 Ref Dag::multiply(Ref a, Ref b) {
+  if (!is_constant(a) && !is_constant(b)) {
+    const bool flip = a.negative() != b.negative();
+    if (a.node() > b.node()) std::swap(a, b);
+    return new_product(a.magnitude(), b.magnitude()).negated_if(flip);
+  }
   if (is_constant(a) && is_constant(b)) return constant(constant_value(a) * constant_value(b));
   if (is_constant(b)) std::swap(a, b);
   if (is_constant(a, 0.0)) return a;
@@ -164,13 +177,15 @@ Ref Dag::multiply(Ref a, Ref b) {
     const Node inner = node(b);
     return multiply(multiply(a, inner.a), inner.b).negated_if(flip);
   }
-  // A constant factor comes first; otherwise operands by index.
-  if (!is_constant(a) && a.node() > b.node()) std::swap(a, b);
+  return new_product(a, b).negated_if(flip);  // a constant factor comes first
+}
+
+Ref Dag::new_product(Ref a, Ref b) {
   Node node;
   node.op = Op::kMultiply;
   node.a = a;
   node.b = b;
-  return intern(node).negated_if(flip);
+  return intern(node);
 }
 
 Ref Dag::fma(Ref a, Ref b, Ref c) {

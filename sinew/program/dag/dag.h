@@ -120,7 +120,12 @@ class Dag {
   }
 
  private:
-  Ref intern(Node node);
+  Ref intern(const Node& node);
+  // The node of which this one is a constant multiple, or itself.
+  std::uint32_t unscaled(Ref ref) const;
+  Ref new_sum(Ref a, Ref b);
+  // Preconditions: the operands are positive and in their order.
+  Ref new_product(Ref a, Ref b);
   void rehash(std::size_t size);
 
   std::vector<Node> nodes_;

@@ -77,7 +77,7 @@ using Matrix = std::vector<Ref>;
 struct Task {
   std::span<const std::uint32_t> rows, columns;
   std::uint32_t original_nodes;     // nodes of the value; those of the derivative come after
-  const std::vector<bool>& needed;  // nodes that some row depends on
+  const std::vector<std::uint8_t>& needed;  // nodes that some row depends on
 };
 
 // One tangent for each column, from the inputs to the results.
@@ -183,7 +183,7 @@ Computation differentiate(const Computation& computation, std::span<const std::u
   wanted.order.clear();
   wanted.results.clear();
   for (const std::uint32_t row : rows) wanted.results.push_back(computation.results[row]);
-  const std::vector<bool> needed = live_nodes(wanted);
+  const std::vector<std::uint8_t> needed = live_nodes(wanted);
 
   Computation derivative = computation;
   derivative.order.clear();

@@ -4,25 +4,25 @@
 
 namespace sinew::program {
 
-std::vector<bool> live_nodes(const Computation& computation) {
+std::vector<std::uint8_t> live_nodes(const Computation& computation) {
   const Dag& dag = computation.dag;
-  std::vector<bool> live(dag.size(), false);
-  for (const Ref result : computation.results) live[result.node()] = true;
+  std::vector<std::uint8_t> live(dag.size(), 0);
+  for (const Ref result : computation.results) live[result.node()] = 1;
   // Operands have smaller indices than the nodes that use them.
   for (std::uint32_t i = dag.size(); i-- > 0;) {
     if (!live[i]) continue;
     const Node& node = dag.node(i);
     const int operands = arity(node.op);
-    if (operands > 0) live[node.a.node()] = true;
-    if (operands > 1) live[node.b.node()] = true;
-    if (operands > 2) live[node.c.node()] = true;
+    if (operands > 0) live[node.a.node()] = 1;
+    if (operands > 1) live[node.b.node()] = 1;
+    if (operands > 2) live[node.c.node()] = 1;
   }
   return live;
 }
 
 std::vector<double> evaluate(const Computation& computation, std::span<const double> inputs) {
   const Dag& dag = computation.dag;
-  const std::vector<bool> live = live_nodes(computation);
+  const std::vector<std::uint8_t> live = live_nodes(computation);
   std::vector<double> values(dag.size(), 0.0);
   const auto value = [&values](Ref ref) {
     return ref.negative() ? -values[ref.node()] : values[ref.node()];
@@ -74,7 +74,7 @@ std::vector<double> evaluate(const Computation& computation, std::span<const dou
 
 OperationCount count_operations(const Computation& computation) {
   const Dag& dag = computation.dag;
-  const std::vector<bool> live = live_nodes(computation);
+  const std::vector<std::uint8_t> live = live_nodes(computation);
   OperationCount count;
   std::vector<bool> angle_seen(dag.size(), false);
   for (std::uint32_t i = 0; i < dag.size(); ++i) {

@@ -28,7 +28,7 @@ struct OperationCount {
 // Only what the results need is counted.
 OperationCount count_operations(const Computation& computation);
 
-// For each node, whether some result needs it.
-std::vector<bool> live_nodes(const Computation& computation);
+// For each node, 1 if some result needs it, else 0.
+std::vector<std::uint8_t> live_nodes(const Computation& computation);
 
 }  // namespace sinew::program

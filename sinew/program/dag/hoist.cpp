@@ -27,7 +27,7 @@ std::vector<bool> slow_nodes(const Dag& dag, const std::vector<bool>& slow) {
 
 Hoisted hoist(const Computation& computation, const std::vector<bool>& slow) {
   const Dag& dag = computation.dag;
-  const std::vector<bool> live = live_nodes(computation);
+  const std::vector<std::uint8_t> live = live_nodes(computation);
   const std::vector<bool> is_slow = slow_nodes(dag, slow);
 
   Hoisted hoisted;

@@ -29,7 +29,16 @@ Colour of_text(const std::string& text) { return std::hash<std::string>{}(text);
 class Colours {
  public:
   explicit Colours(const Program& program)
-      : program_(program), colour_(program.closures.size(), 0) {}
+      : program_(program),
+        colour_(program.closures.size(), 0),
+        is_unique_(program.closures.size(), 0) {
+    for (const Closure& closure : program.closures) {
+      facts_.push_back({find_kernel(closure.operation), of_text(closure.operation),
+                        of_text(closure.step), is_sum(closure)});
+    }
+    for (const Variable& v : program.variables)
+      first_.push_back(mix(mix(of_text(v.quantity), v.size), static_cast<Colour>(v.role)));
+  }
 
   // By what closures do and how their arguments came about, then also by what becomes of their
   // results: a spine looks like a leg as far as it goes, but it carries arms. Again as long as that
@@ -38,19 +47,27 @@ class Colours {
     constexpr int kMaximumRounds = 16;
     forward();
     for (int round = 0; round < kMaximumRounds; ++round) {
-      const std::size_t before = members_.size();
+      const std::size_t before = colours_;
       backward();
       forward();
-      if (members_.size() == before) break;
+      if (colours_ == before) break;
     }
     return colour_;
   }
 
  private:
+  // What does not change from round to round.
+  struct Facts {
+    const Kernel* kernel;
+    Colour operation, step;
+    bool is_sum;
+  };
+
   // Calls visit(variable, is output, port).
   template <typename Visit>
-  void for_arguments(const Closure& closure, Visit visit) const {
-    const Kernel& kernel = *find_kernel(closure.operation);
+  void for_arguments(std::uint32_t index, Visit visit) const {
+    const Closure& closure = program_.closures[index];
+    const Kernel& kernel = *facts_[index].kernel;
     const std::size_t count = closure.arguments.size();
     for (std::size_t i = 0; i < count; ++i) {
       visit(closure.arguments[i], kernel.port(i, count).output, i);
@@ -58,19 +75,14 @@ class Colours {
   }
 
   void forward() {
-    std::vector<Colour> of_variable(program_.variables.size());
-    for (std::size_t i = 0; i < of_variable.size(); ++i) {
-      const Variable& v = program_.variables[i];
-      of_variable[i] = mix(mix(of_text(v.quantity), v.size), static_cast<Colour>(v.role));
-    }
+    std::vector<Colour> of_variable = first_;
     for (const std::uint32_t index : program_.schedule) {
-      const Closure& closure = program_.closures[index];
-      Colour colour = mix(mix(colour_[index], of_text(closure.operation)), of_text(closure.step));
-      for_arguments(closure, [&](std::uint32_t variable, bool output, std::size_t) {
+      Colour colour = mix(mix(colour_[index], facts_[index].operation), facts_[index].step);
+      for_arguments(index, [&](std::uint32_t variable, bool output, std::size_t) {
         if (!output) colour = mix(colour, of_variable[variable]);
       });
       colour_[index] = colour;
-      for_arguments(closure, [&](std::uint32_t variable, bool output, std::size_t port) {
+      for_arguments(index, [&](std::uint32_t variable, bool output, std::size_t port) {
         if (output) of_variable[variable] = mix(colour, port);
       });
     }
@@ -87,20 +99,19 @@ class Colours {
     }
     for (std::size_t k = program_.schedule.size(); k-- > 0;) {
       const std::uint32_t index = program_.schedule[k];
-      const Closure& closure = program_.closures[index];
-      const bool unique = members_[colour_[index]] < 2;
+      const bool sum = facts_[index].is_sum;
+      const bool unique = is_unique_[index] != 0;
       Colour results = 0;
-      for_arguments(closure, [&](std::uint32_t variable, bool output, std::size_t port) {
-        if (output)
-          results += is_sum(closure) ? of_variable[variable] : mix(of_variable[variable], port);
+      for_arguments(index, [&](std::uint32_t variable, bool output, std::size_t port) {
+        if (output) results += sum ? of_variable[variable] : mix(of_variable[variable], port);
       });
-      const Colour use = is_sum(closure) ? results
-                         : unique        ? of_text(closure.operation)
-                                         : mix(colour_[index], results);
+      const Colour use = sum      ? results
+                         : unique ? facts_[index].operation
+                                  : mix(colour_[index], results);
       if (!unique) colour_[index] = mix(colour_[index], results);
       // Users come in any order.
-      for_arguments(closure, [&](std::uint32_t variable, bool output, std::size_t port) {
-        if (!output) of_variable[variable] += is_sum(closure) || unique ? use : mix(use, port);
+      for_arguments(index, [&](std::uint32_t variable, bool output, std::size_t port) {
+        if (!output) of_variable[variable] += sum || unique ? use : mix(use, port);
       });
     }
     count();
@@ -111,13 +122,25 @@ class Colours {
   }
 
   void count() {
-    members_.clear();
-    for (const std::uint32_t index : program_.schedule) ++members_[colour_[index]];
+    sorted_.clear();
+    for (const std::uint32_t index : program_.schedule) sorted_.push_back({colour_[index], index});
+    std::sort(sorted_.begin(), sorted_.end());
+    colours_ = 0;
+    for (std::size_t from = 0; from < sorted_.size(); ++colours_) {
+      std::size_t to = from + 1;
+      while (to < sorted_.size() && sorted_[to].first == sorted_[from].first) ++to;
+      for (std::size_t k = from; k < to; ++k) is_unique_[sorted_[k].second] = to - from == 1;
+      from = to;
+    }
   }
 
   const Program& program_;
-  std::vector<Colour> colour_;
-  std::unordered_map<Colour, std::uint32_t> members_;
+  std::vector<Facts> facts_;             // of closures
+  std::vector<Colour> first_;            // of variables that nobody has written
+  std::vector<Colour> colour_;           // of closures
+  std::vector<std::uint8_t> is_unique_;  // whether no other closure has a closure's colour
+  std::vector<std::pair<Colour, std::uint32_t>> sorted_;  // with the closures
+  std::size_t colours_ = 0;                               // different ones
 };
 
 // Sets of closures, joined one by one.

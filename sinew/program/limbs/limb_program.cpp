@@ -325,7 +325,7 @@ void optimise_regions(LimbProgram& program, const OptimiseOptions& options) {
     region.computation.results = std::move(results);
     region.computation.inputs = static_cast<std::uint32_t>(region.inputs.size());
     region.computation = optimise(std::move(region.computation), options);
-    const std::vector<bool> live = live_nodes(region.computation);
+    const std::vector<std::uint8_t> live = live_nodes(region.computation);
     for (std::uint32_t i = 0; i < region.computation.dag.size(); ++i) {
       const Node& node = region.computation.dag.node(i);
       if (!live[i] || node.op != Op::kInput) continue;

@@ -38,7 +38,7 @@ Ref Associator::sum(SignedProducts& terms, double deadline) {
   Products products;
   for (SignedProduct& term : terms) {
     auto& factors = term.factors;
-    if (association_ != Association::kPlain && factors.size() > 1) {
+    if (factors.size() > 1) {
       // The factors that are ready first are multiplied first.
       sort_stably(factors, [this](Ref a, Ref b) { return ready_.of(a) < ready_.of(b); });
     }
@@ -55,11 +55,7 @@ Ref Associator::sum(SignedProducts& terms, double deadline) {
   if (association_ == Association::kFused) {
     return fused_sum(values, products, deadline);
   }
-  if (association_ == Association::kShallow) return shallow_sum(values);
-  if (values.empty()) return dag_.constant(0.0);
-  Ref result = values.front();
-  for (std::size_t k = 1; k < values.size(); ++k) result = dag_.add(result, values[k]);
-  return result;
+  return shallow_sum(values);
 }
 
 // Adds the two values that are ready first.

@@ -21,7 +21,7 @@ class Associator {
   Associator(Dag& dag, Association association)
       : dag_(dag), ready_(dag), association_(association) {}
 
-  // `deadline`: when the sum has to be ready; of use for kFused only.
+  // `deadline`: when the sum has to be ready; of use for kFused only. Precondition: not kPlain.
   Ref sum(SignedProducts& terms, double deadline);
 
  private:

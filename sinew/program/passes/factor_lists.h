@@ -25,6 +25,7 @@ class FactorLists {
   // A list that is known not to have a number; every sum that has it is about to be changed.
   std::uint32_t add(const Term& term);
 
+  std::uint32_t size() const { return static_cast<std::uint32_t>(lists_.size()); }
   // The list of the term at this place of Polynomials::terms.
   std::uint32_t of_term(std::uint32_t place) const { return of_term_[place]; }
   void set(std::uint32_t place, std::uint32_t list) {

@@ -37,14 +37,24 @@ class Factoring {
   // The smallest of those that occur most often, if one occurs twice.
   bool find_most_shared(std::uint32_t i, Factor& best) {
     all_.clear();
+    // Mostly no factor occurs twice, which a set of 64 bits shows: each factor is one of them.
+    std::uint64_t seen = 0;
+    bool repeated = false;
+    const auto add = [&](Factor factor) {
+      const std::uint64_t bit = std::uint64_t{1} << (factor * 0x9e3779b97f4a7c15U >> 58U);
+      repeated = repeated || (seen & bit) != 0;
+      seen |= bit;
+      all_.push_back(factor);
+    };
     for (const Term& term : system_.terms_of(i)) {
       if (!is_product(term)) continue;
       const auto factors = system_.factors_of(term);
       for (std::size_t k = 0; k < factors.size(); ++k) {
-        if (k == 0 || factors[k] != factors[k - 1]) all_.push_back(factors[k]);
+        if (k == 0 || factors[k] != factors[k - 1]) add(factors[k]);
       }
-      if (is_scaled(term)) all_.push_back(size_of(term));
+      if (is_scaled(term)) add(size_of(term));
     }
+    if (!repeated) return false;
     std::sort(all_.begin(), all_.end());
     std::size_t best_count = 1;
     for (std::size_t from = 0; from < all_.size();) {

@@ -34,7 +34,7 @@ double latency(Op op) {
 std::vector<double> times_to_the_end(const Computation& computation) {
   const Dag& dag = computation.dag;
   std::vector<double> times(dag.size(), 0.0);
-  const std::vector<bool> live = live_nodes(computation);
+  const std::vector<std::uint8_t> live = live_nodes(computation);
   for (std::uint32_t i = dag.size(); i-- > 0;) {
     if (!live[i]) continue;
     const Node& node = dag.node(i);

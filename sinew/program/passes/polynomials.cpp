@@ -17,6 +17,7 @@ class Reader {
 
   void run() {
     const std::uint32_t n = dag().size();
+    contents_.assign(n, 0);
     system_.is_sum.assign(n, 0);
     system_.sums.assign(n, {});
     system_.terms.clear();
@@ -44,26 +45,41 @@ class Reader {
     const std::uint32_t a = node.a.node();
     const Sum& inner = system_.sums[a];
     if (taken_up(a) && inner.first + inner.count == first) first = inner.first;
-    append_terms(node.a, first);
+    const Contents of_a = append_terms(node.a, first);
     const std::uint32_t distinct = end();
-    append_terms(node.b, end());
-    system_.collect_last_terms(first, distinct);
+    const Contents of_b = append_terms(node.b, end());
+    if ((of_a & of_b) != 0 || has_zero(distinct)) system_.collect_last_terms(first, distinct);
+    contents_[i] = of_a | of_b;
     system_.sums[i] = {first, end() - first, node.origin};
     system_.is_sum[i] = 1;
   }
 
+  // What a sum may hold: each list of factors is one of 64 bits. Two sums without a common bit have
+  // no factors in common, and nothing to collect.
+  using Contents = std::uint64_t;
+  static Contents bit(std::uint64_t of) {
+    return Contents{1} << (of * 0x9e3779b97f4a7c15U >> 58U);  // 2^64 / golden ratio
+  }
+
+  bool has_zero(std::uint32_t from) const {
+    for (std::uint32_t k = from; k < end(); ++k) {
+      if (system_.terms[k].coefficient == 0.0) return true;
+    }
+    return false;
+  }
+
   // The terms of an operand, behind the others; where they are there already, `from` is their
   // place.
-  void append_terms(Ref ref, std::uint32_t from) {
+  Contents append_terms(Ref ref, std::uint32_t from) {
     const std::uint32_t i = ref.node();
     if (dag().is_constant(ref)) {
       system_.terms.push_back({dag().constant_value(ref), 0, 0});
-      return;
+      return bit(0xffffffffU);
     }
     const double sign = ref.negative() ? -1.0 : 1.0;
     if (!taken_up(i)) {
       system_.terms.push_back(system_.term(sign, {&i, 1}));
-      return;
+      return bit(i);
     }
     Sum& inner = system_.sums[i];
     if (inner.first == from && inner.count > 0) {
@@ -78,6 +94,7 @@ class Reader {
       }
     }
     inner.count = 0;
+    return contents_[i];
   }
 
   void read_product(std::uint32_t i, const Node& node) {
@@ -86,10 +103,22 @@ class Reader {
     append_factors(node.b, product);
     const auto from = system_.factors.begin() + product.first;
     product.count = static_cast<std::uint32_t>(system_.factors.end() - from);
-    std::sort(from, system_.factors.end());
+    if (product.count == 2) {
+      if (from[1] < from[0]) std::swap(from[0], from[1]);
+    } else {
+      std::sort(from, system_.factors.end());
+    }
+    contents_[i] = contents_of(product);
     system_.sums[i] = {end(), 1, node.origin};
     system_.terms.push_back(product);
     system_.is_sum[i] = 1;
+  }
+
+  Contents contents_of(const Term& product) const {
+    if (product.count == 0) return bit(0xffffffffU);
+    const auto factors = system_.factors_of(product);
+    return bit(std::uint64_t{factors.front()} +
+               (std::uint64_t{factors.back()} << 32U) * (product.count > 1 ? 1 : 0));
   }
 
   void append_factors(Ref ref, Term& product) {
@@ -113,6 +142,7 @@ class Reader {
 
   Polynomials& system_;
   std::vector<std::uint32_t> uses_;
+  std::vector<Contents> contents_;  // of each sum
 };
 
 // Builds the graph again, operands first.
@@ -166,6 +196,7 @@ class Writer {
       for (const std::uint32_t factor : system_.factors_of(term)) copy(factor);
     }
     result_.dag.set_origin(system_.sums[i].origin);
+    if (association_ == Association::kPlain) return plain_sum(terms);
     products_.resize(terms.size());
     for (std::size_t k = 0; k < terms.size(); ++k) {
       SignedProduct& product = products_[k];
@@ -176,6 +207,26 @@ class Writer {
       }
     }
     return associate_.sum(products_, i < deadline_.size() ? deadline_[i] : 0.0);
+  }
+
+  // All products first, then their sum, both from left to right.
+  Ref plain_sum(std::span<const Term> terms) {
+    Dag& dag = result_.dag;
+    values_.clear();
+    for (const Term& term : terms) {
+      const std::span<const std::uint32_t> factors = system_.factors_of(term);
+      const bool scaled = factors.empty() || std::abs(term.coefficient) != 1.0;
+      Ref product = scaled ? dag.constant(term.coefficient)
+                           : copy_[factors[0]].negated_if(term.coefficient < 0.0);
+      for (std::size_t k = scaled ? 0 : 1; k < factors.size(); ++k) {
+        product = dag.multiply(product, copy_[factors[k]]);
+      }
+      values_.push_back(product);
+    }
+    if (values_.empty()) return dag.constant(0.0);
+    Ref sum = values_.front();
+    for (std::size_t k = 1; k < values_.size(); ++k) sum = dag.add(sum, values_[k]);
+    return sum;
   }
 
   Ref copy_of_operation(std::uint32_t i) {
@@ -196,7 +247,8 @@ class Writer {
   std::vector<double> deadline_;
   std::vector<Ref> copy_;
   std::vector<std::uint8_t> done_;
-  SignedProducts products_;  // of the sum that is being written
+  std::vector<Ref> values_;  // terms of the sum that is being written
+  SignedProducts products_;  // the same, not yet multiplied
 };
 
 }  // namespace

@@ -154,7 +154,7 @@ class Scheduler {
   }
 
   const Dag& dag_;
-  std::vector<bool> live_;
+  std::vector<std::uint8_t> live_;
   std::vector<double> tails_;
   Users users_;
   std::vector<std::uint32_t> missing_;  // operands that have not been scheduled
@@ -169,7 +169,7 @@ class Scheduler {
 
 std::uint32_t live_values(const Computation& computation) {
   const Dag& dag = computation.dag;
-  const std::vector<bool> live = live_nodes(computation);
+  const std::vector<std::uint8_t> live = live_nodes(computation);
   std::vector<std::uint32_t> unread(dag.size(), 0);
   for (std::uint32_t i = 0; i < dag.size(); ++i) {
     if (live[i]) for_each_operand(dag.node(i), [&](std::uint32_t operand) { ++unread[operand]; });

@@ -6,11 +6,13 @@ namespace sinew::program {
 
 Computation share_denominators(Computation computation) {
   const Dag& dag = computation.dag;
-  const std::vector<bool> live = live_nodes(computation);
+  const std::vector<std::uint8_t> live = live_nodes(computation);
   std::vector<std::uint32_t> quotients(dag.size(), 0);  // of each denominator
+  bool shared = false;
   for (std::uint32_t i = 0; i < dag.size(); ++i) {
-    if (live[i] && dag.node(i).op == Op::kDivide) ++quotients[dag.node(i).b.node()];
+    if (live[i] && dag.node(i).op == Op::kDivide) shared |= ++quotients[dag.node(i).b.node()] > 1;
   }
+  if (!shared) return computation;
 
   Computation result;
   result.inputs = computation.inputs;

@@ -16,6 +16,7 @@ namespace {
 
 // Sums with more terms than this are left alone: the number of pairs grows with the square.
 constexpr std::size_t kMaximumTerms = 40;
+constexpr std::size_t kFewestSightings = 256, kMostSightings = 1U << 20U;  // bytes
 
 // Two terms up to a common sign. Lists of factors are numbered, so that pairs are compared quickly.
 struct Pair {
@@ -37,9 +38,17 @@ struct HashOfPair {
 class Sharing {
  public:
   explicit Sharing(Polynomials& system) : system_(system), lists_(system) {
+    std::size_t pairs = 0;
     for (std::uint32_t i = 0; i < system.sums.size(); ++i) {
-      if (has_pairs(i)) lists_.count(system.sums[i]);
+      if (!has_pairs(i)) continue;
+      lists_.count(system.sums[i]);
+      pairs += std::size_t{system.sums[i].count} * (system.sums[i].count - 1) / 2;
     }
+    first_added_ = lists_.size();
+    sightings_.assign(std::bit_ceil(std::clamp(2 * pairs, kFewestSightings, kMostSightings)), 0);
+    bool again = false;
+    for (std::uint32_t i = 0; i < system.sums.size(); ++i) again |= sight(i);
+    if (!again) return;
     for (std::uint32_t i = 0; i < system.sums.size(); ++i) enter(i);
   }
 
@@ -75,6 +84,7 @@ class Sharing {
   struct Numbered {
     std::uint32_t list;
     double coefficient;
+    std::uint64_t hash;  // of the list and the size of the coefficient
   };
   Pair pair_of(const Numbered& a, const Numbered& b) const {
     const bool in_order = lists_.before(a.list, b.list);
@@ -88,19 +98,54 @@ class Sharing {
     return system_.sums[i].count >= 2 && system_.sums[i].count <= kMaximumTerms;
   }
 
+  // The terms of a sum whose lists others have as well.
+  const SmallList<Numbered, 8>& numbered(std::uint32_t i) {
+    numbered_.clear();
+    const Sum& sum = system_.sums[i];
+    for (std::uint32_t k = sum.first; k < sum.first + sum.count; ++k) {
+      const std::uint32_t list = lists_.of_term(k);
+      if (!lists_.in_several(list)) continue;
+      const double coefficient = system_.terms[k].coefficient;
+      const std::uint64_t size = std::bit_cast<std::uint64_t>(std::abs(coefficient));
+      numbered_.push_back({list, coefficient, mixed(list, size)});
+    }
+    return numbered_;
+  }
+
+  // Most pairs occur once. Counting them by a hash alone shows which those are, and they need not
+  // be entered: only lists that sharing adds make new pairs, the others become fewer.
+  std::uint8_t& sightings(const Numbered& a, const Numbered& b) {
+    const bool opposite = (a.coefficient < 0.0) != (b.coefficient < 0.0);
+    const std::uint64_t hash = mixed(a.hash + b.hash, opposite ? 1 : 0);
+    return sightings_[hash & (sightings_.size() - 1)];
+  }
+  bool occurs_once(const Numbered& a, const Numbered& b) {
+    return a.list < first_added_ && b.list < first_added_ && sightings(a, b) < 2;
+  }
+  // Returns whether a pair may have occurred before.
+  bool sight(std::uint32_t i) {
+    if (!has_pairs(i)) return false;
+    bool again = false;
+    const auto& terms = numbered(i);
+    for (std::size_t a = 0; a < terms.size(); ++a) {
+      for (std::size_t b = a + 1; b < terms.size(); ++b) {
+        std::uint8_t& count = sightings(terms[a], terms[b]);
+        again |= count > 0;
+        if (count < 2) ++count;
+      }
+    }
+    return again;
+  }
+
   // Of those that several sums might have in common.
   template <typename Change>
   void for_each_pair(std::uint32_t i, Change change) {
     if (!has_pairs(i)) return;
-    SmallList<Numbered, 8> numbered;
-    const Sum& sum = system_.sums[i];
-    for (std::uint32_t k = sum.first; k < sum.first + sum.count; ++k) {
-      const std::uint32_t list = lists_.of_term(k);
-      if (lists_.in_several(list)) numbered.push_back({list, system_.terms[k].coefficient});
-    }
-    for (std::size_t a = 0; a < numbered.size(); ++a) {
-      for (std::size_t b = a + 1; b < numbered.size(); ++b)
-        change(pair_of(numbered[a], numbered[b]));
+    const auto& terms = numbered(i);
+    for (std::size_t a = 0; a < terms.size(); ++a) {
+      for (std::size_t b = a + 1; b < terms.size(); ++b) {
+        if (!occurs_once(terms[a], terms[b])) change(pair_of(terms[a], terms[b]));
+      }
     }
   }
 
@@ -176,7 +221,10 @@ class Sharing {
 
   Polynomials& system_;
   FactorLists lists_;
-  Sums sums_;  // that contain each pair
+  std::uint32_t first_added_ = 0;        // lists from here on were made by sharing
+  std::vector<std::uint8_t> sightings_;  // of pairs, up to two, by their hashes
+  SmallList<Numbered, 8> numbered_;      // of the sum that is looked at
+  Sums sums_;                            // that contain each pair
   std::set<Candidate, Before, Pooled<Candidate>> candidates_{Before{&lists_}};
 };
 

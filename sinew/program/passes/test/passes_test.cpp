@@ -277,13 +277,13 @@ TEST_F(PassTest, ProductsAndSumsFuse) {
 
 TEST_F(PassTest, TheScheduleComputesOperandsFirstAndEachLiveNodeOnce) {
   const Computation scheduled = optimise(random_computation(11));
-  std::vector<bool> done(scheduled.dag.size(), false);
+  std::vector<std::uint8_t> done(scheduled.dag.size(), 0);
   for (const std::uint32_t i : scheduled.order) {
     EXPECT_FALSE(done[i]);
     const Node& node = scheduled.dag.node(i);
     const Ref operands[] = {node.a, node.b, node.c};
     for (int k = 0; k < arity(node.op); ++k) EXPECT_TRUE(done[operands[k].node()]);
-    done[i] = true;
+    done[i] = 1;
   }
   EXPECT_EQ(done, live_nodes(scheduled));
 }
