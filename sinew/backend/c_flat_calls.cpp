@@ -66,22 +66,27 @@ void FlatEmitter::forget() {
 void FlatEmitter::keep(std::uint32_t node) {
   const std::uint32_t slot = parts_.slot[node];
   if (slot == FlatParts::kNoSlot) return;
+  const fmt::format_int digits(slot);
+  const std::string_view index(digits.data(), digits.size());
+  const std::string& name = names_[node];
   if (block_form_) {
-    line(fmt::format("memcpy(kept + {0} * {1}_LANES, &{2}, sizeof {2});", slot, upper_,
-                     names_[node]));
+    block_->add(
+        {"  memcpy(kept + ", index, " * ", upper_, "_LANES, &", name, ", sizeof ", name, ");"});
   } else {
-    const fmt::format_int index(slot);
-    block_->add({"  kept[", {index.data(), index.size()}, "] = ", names_[node], ";"});
+    block_->add({"  kept[", index, "] = ", name, ";"});
   }
 }
 
 void FlatEmitter::read_kept(std::uint32_t node) {
-  names_[node] = given_.unique(fmt::format("k{}", parts_.slot[node]));
+  const fmt::format_int digits(parts_.slot[node]);
+  const std::string_view index(digits.data(), digits.size());
+  std::string& name = names_[node];
+  name = given_.unique(std::string("k").append(index));
   if (block_form_) {
-    line(fmt::format("{0} {1}; memcpy(&{1}, kept + {2} * {3}_LANES, sizeof {1});", type_,
-                     names_[node], parts_.slot[node], upper_));
+    block_->add({"  ", type_, " ", name, "; memcpy(&", name, ", kept + ", index, " * ", upper_,
+                 "_LANES, sizeof ", name, ");"});
   } else {
-    line(fmt::format("const {} {} = kept[{}];", scalar_, names_[node], parts_.slot[node]));
+    block_->add({"  const ", scalar_, " ", name, " = kept[", index, "];"});
   }
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 // "kept + 3"
 std::string offset(const std::string& array, int place) {
-  return fmt::format("{} {} {}", array, place < 0 ? "-" : "+", std::abs(place));
+  return array + (place < 0 ? " - " : " + ") + std::to_string(std::abs(place));
 }
 
 }  // namespace
@@ -55,9 +55,9 @@ void LimbEmitter::wait_in_memory(std::uint32_t node) {
   const std::string& name = names_[at_][node];
   const int place = static_cast<int>(kept_.slot[value]) - int{kNearNumbers};
   if (in_lanes()) {
-    line(fmt::format("memcpy({0}, &{1}, sizeof {1});", offset("kept", place), name));
+    body_.code.add({"  memcpy(", offset("kept", place), ", &", name, ", sizeof ", name, ");"});
   } else {
-    line(fmt::format("KEPT({}) = {};", place, name));
+    body_.code.add({"  KEPT(", std::to_string(place), ") = ", name, ";"});
   }
   in_memory_[value] = {name, "kept", place};
   waiting_[value] = &names_[at_][node];
@@ -70,10 +70,11 @@ const std::string& LimbEmitter::name_of(std::size_t region, std::uint32_t node) 
   const auto& [base, array, place] = in_memory_.at(nodes_.of(region, node));
   name = given_.unique(base);
   if (const std::uint32_t lanes = program_.regions[region].lanes; lanes > 1) {
-    line(fmt::format("{0} {1}; memcpy(&{1}, {2}, sizeof {1});", types_[region], name,
-                     offset(array, place)));
+    body_.code.add({"  ", types_[region], " ", name, "; memcpy(&", name, ", ", offset(array, place),
+                    ", sizeof ", name, ");"});
   } else {
-    line(fmt::format("const {} {} = {}[{}];", scalar_, name, array, place));
+    body_.code.add(
+        {"  const ", scalar_, " ", name, " = ", array, "[", std::to_string(place), "];"});
   }
   named_.emplace_back(region, node);
   return name;

@@ -179,7 +179,7 @@ std::string LimbEmitter::input(const Node& node) {
     return name;
   }
   if (const auto same = same_vector(sources)) {
-    line(fmt::format("const {} {} = {};", type(), name, *same));
+    body_.code.add({"  const ", type(), " ", name, " = ", *same, ";"});
     return name;
   }
   const bool equal = std::all_of(sources.begin(), sources.end(),

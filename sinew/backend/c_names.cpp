@@ -16,8 +16,14 @@ bool CNames::is_temporary(std::string_view name) const {
 
 std::string CNames::unique(const std::string& base) {
   std::string name = base;
-  for (int again = 2; is_temporary(name) || !taken_.insert(name).second; ++again)
-    name = fmt::format("{}_{}", base, again);
+  if (is_temporary(name) || !taken_.insert(name).second) {
+    int& number = numbers_.try_emplace(base, 2).first->second;
+    do {
+      const fmt::format_int digits(number++);
+      name = base;
+      (name += '_').append(digits.data(), digits.size());
+    } while (is_temporary(name) || !taken_.insert(name).second);
+  }
   others_like_them_ = others_like_them_ || (name.size() > 1 && name[0] == 't' && name[1] <= '9');
   return name;
 }

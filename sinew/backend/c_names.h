@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -24,7 +25,8 @@ class CNames {
  private:
   bool is_temporary(std::string_view name) const;
 
-  std::unordered_set<std::string> taken_;  // without temporaries
+  std::unordered_set<std::string> taken_;         // without temporaries
+  std::unordered_map<std::string, int> numbers_;  // behind each base: those below are taken
   std::size_t temporaries_ = 0;
   bool others_like_them_ = false;
 };

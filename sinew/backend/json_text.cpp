@@ -3,8 +3,28 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace sinew::backend {
+
+namespace {
+
+// Whether none of eight characters is a control character, a quotation mark or a backslash: the
+// high bit of a byte of (x - n) & ~x is set where the lowest byte below n is (Mycroft, 1987).
+bool eight_are_plain(const char* at) {
+  constexpr std::uint64_t kOnes = 0x0101010101010101U, kHigh = 0x8080808080808080U;
+  std::uint64_t x = 0;
+  std::memcpy(&x, at, sizeof x);
+  const auto below = [](std::uint64_t bytes, std::uint64_t n) {
+    return (bytes - kOnes * n) & ~bytes;
+  };
+  const std::uint64_t found =
+      below(x, 0x20) | below(x ^ kOnes * '"', 1) | below(x ^ kOnes * '\\', 1);
+  return (found & kHigh) == 0;
+}
+
+}  // namespace
 
 // A comma, where something stands in front at the same level.
 void JsonText::separate() {
@@ -44,6 +64,9 @@ JsonText& JsonText::value(std::string_view text) {
   text_ += '"';
   std::size_t written = 0;  // what needs no escape is appended at once
   for (std::size_t k = 0; k < text.size(); ++k) {
+    while (k + sizeof(std::uint64_t) <= text.size() && eight_are_plain(text.data() + k))
+      k += sizeof(std::uint64_t);
+    if (k == text.size()) break;
     const char c = text[k];
     const bool is_control = static_cast<unsigned char>(c) < 0x20;
     if (c != '"' && c != '\\' && !is_control) continue;

@@ -134,6 +134,11 @@ std::string Terms::to_string(Id id) const {
 // The role and the parts, each as its kind, the sizes of its texts, and its texts: unambiguous.
 std::string Terms::Data::name_of(const DerivedEntry& made_of) const {
   std::string name;
+  name.reserve(64 * (made_of.count + std::size_t{1}));
+  const auto number = [&](std::size_t value) {
+    const fmt::format_int digits(value);
+    name.append(digits.data(), digits.size());
+  };
   const auto append = [&](std::uint32_t id) {
     const TermEntry& entry = entries[id];
     const std::string_view text(entry.text, entry.size);
@@ -141,11 +146,21 @@ std::string Terms::Data::name_of(const DerivedEntry& made_of) const {
       name += '-';
     } else if (entry.kind == TermKind::kLiteral) {
       const TermEntry& datatype = entries[entry.link];
-      name += fmt::format("L{},{},{}:{}{}{}", text.size(), datatype.size, entry.language_size, text,
-                          std::string_view(datatype.text, datatype.size),
-                          std::string_view(entry.text + entry.size, entry.language_size));
+      name += 'L';
+      number(text.size());
+      name += ',';
+      number(datatype.size);
+      name += ',';
+      number(entry.language_size);
+      name += ':';
+      name += text;
+      name.append(datatype.text, datatype.size);
+      name.append(entry.text + entry.size, entry.language_size);
     } else {
-      name += fmt::format("{}{}:{}", entry.kind == TermKind::kBlank ? 'B' : 'I', text.size(), text);
+      name += entry.kind == TermKind::kBlank ? 'B' : 'I';
+      number(text.size());
+      name += ':';
+      name += text;
     }
   };
   append(made_of.role);
@@ -174,9 +189,8 @@ std::string_view Terms::Data::make_text(std::uint32_t id) {
       }
       if (!load(entries[made_of.role].text)) waiting.push_back(made_of.role);
       if (waiting.size() > before) continue;
-      text = fmt::format(
-          "{}{}", kDerivedPrefix,
-          sinew::graph::to_string(name_based_uuid(derived_namespace(), name_of(made_of))));
+      text = kDerivedPrefix;
+      text += sinew::graph::to_string(name_based_uuid(derived_namespace(), name_of(made_of)));
     } else {
       text = fmt::format("fresh{}", current);
     }

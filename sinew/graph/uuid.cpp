@@ -136,7 +136,9 @@ Sha1Digest sha1(std::string_view message) {
 Sha1Digest sha1_portable(std::string_view message) { return sha1_by(absorb, message); }
 
 Uuid name_based_uuid(const Uuid& name_space, std::string_view name) {
-  std::string message(name_space.begin(), name_space.end());
+  std::string message;
+  message.reserve(name_space.size() + name.size());
+  message.append(name_space.begin(), name_space.end());
   message += name;
   const Sha1Digest digest = sha1(message);
   Uuid uuid;
@@ -148,12 +150,12 @@ Uuid name_based_uuid(const Uuid& name_space, std::string_view name) {
 
 std::string to_string(const Uuid& uuid) {
   constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
-  text.reserve(36);
+  std::string text(36, '-');
+  std::size_t at = 0;
   for (std::size_t i = 0; i < uuid.size(); ++i) {
-    if (i == 4 || i == 6 || i == 8 || i == 10) text += '-';
-    text += kDigits[uuid[i] >> 4];
-    text += kDigits[uuid[i] & 15];
+    if (i == 4 || i == 6 || i == 8 || i == 10) ++at;
+    text[at++] = kDigits[uuid[i] >> 4];
+    text[at++] = kDigits[uuid[i] & 15];
   }
   return text;
 }

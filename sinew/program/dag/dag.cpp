@@ -58,16 +58,20 @@ void Dag::rehash(std::size_t size) {
 }
 
 Ref Dag::intern(const Node& node) {
-  const std::uint64_t mask = table_.size() - 1;
+  const std::size_t places = table_.size();
+  const std::uint64_t mask = places - 1;
+  std::uint32_t* const table = table_.data();
+  const Node* const nodes = nodes_.data();
   const std::uint64_t h = hash(node);
   std::uint64_t at = h & mask;
-  for (std::uint32_t there; (there = table_[at]) != 0; at = (at + 1) & mask) {
+  for (std::uint32_t there; (there = table[at]) != 0; at = (at + 1) & mask) {
     // Nodes whose hashes differ in the bits that are kept need not be looked at.
     if (there >> kNodeBits != h >> 56U) continue;
     const std::uint32_t found = (there & kNodeMask) - 1;
-    if (same(nodes_[found], node)) return Ref::of(found);
+    if (same(nodes[found], node)) return Ref::of(found);
   }
-  if (nodes_.size() >= kMaximumNodes) {
+  const std::size_t count = nodes_.size();
+  if (count >= kMaximumNodes) {
     throw Error(Problem{
         {},
         {},
@@ -76,11 +80,11 @@ Ref Dag::intern(const Node& node) {
         Severity::kError,
         {}});
   }
-  const auto index = static_cast<std::uint32_t>(nodes_.size());
+  const auto index = static_cast<std::uint32_t>(count);
   nodes_.push_back(node);
-  nodes_.back().origin = arity(node.op) == 0 ? kNoOrigin : origin_;
-  table_[at] = entry(index, h);
-  if (nodes_.size() * 2 > table_.size()) rehash(table_.size() * 2);
+  if (arity(node.op) > 0) nodes_.back().origin = origin_;
+  table[at] = entry(index, h);
+  if (count * 2 + 2 > places) rehash(places * 2);
   return Ref::of(index);
 }
 

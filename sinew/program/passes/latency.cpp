@@ -48,7 +48,7 @@ std::vector<double> times_to_the_end(const Computation& computation) {
   return times;
 }
 
-double ReadyTimes::of(std::uint32_t node) {
+double ReadyTimes::follow(std::uint32_t node) {
   while (times_.size() <= node) {
     const Node& next = dag_.node(static_cast<std::uint32_t>(times_.size()));
     const int operands = arity(next.op);

@@ -20,9 +20,11 @@ class ReadyTimes {
  public:
   explicit ReadyTimes(const Dag& dag) : dag_(dag) {}
   double of(Ref ref) { return of(ref.node()); }
-  double of(std::uint32_t node);
+  double of(std::uint32_t node) { return node < times_.size() ? times_[node] : follow(node); }
 
  private:
+  double follow(std::uint32_t node);
+
   const Dag& dag_;
   std::vector<double> times_;
 };

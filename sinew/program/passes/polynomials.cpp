@@ -78,7 +78,8 @@ class Reader {
     }
     const double sign = ref.negative() ? -1.0 : 1.0;
     if (!taken_up(i)) {
-      system_.terms.push_back(system_.term(sign, {&i, 1}));
+      system_.terms.push_back({sign, static_cast<std::uint32_t>(system_.factors.size()), 1});
+      system_.factors.push_back(i);
       return bit(i);
     }
     Sum& inner = system_.sums[i];
