@@ -101,7 +101,8 @@ int run_bench(Arguments arguments) {
   options.source = describe(models_options, query);
   if (scalar == "float") options.scalar = backend::Scalar::kFloat;
   const Clock::time_point c_start = Clock::now();
-  const backend::GeneratedCode code = backend::generate_c(program, options);
+  const backend::GeneratedCode code =
+      with_places(*models, [&] { return backend::generate_c(program, options); });
   const double to_c_ms = to_program_ms + since_ms(c_start);
 
   nlohmann::ordered_json report = {{"program", program.name},

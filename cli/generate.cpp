@@ -80,7 +80,8 @@ int run_generate(Arguments arguments) {
       std::cerr << program::to_string(report) << '\n';
     };
   }
-  const backend::GeneratedCode code = backend::generate_c(program, options);
+  const backend::GeneratedCode code =
+      with_places(*models, [&] { return backend::generate_c(program, options); });
   for (const backend::SourceFile& file : code.files) {
     write_output((std::filesystem::path(folder) / file.name).string(), file.text);
   }

@@ -166,25 +166,19 @@ void normalise(Models& models, const synthesis::Query& query, std::optional<doub
   model::write(tree, models.store);
 }
 
-// Synthesis knows nodes, not files: what is at fault gets the place where it was written.
-synthesis::Synthesis synthesised(Models& models, const synthesis::Query& query,
-                                 synthesis::AlgorithmGraph graph) {
-  try {
-    return synthesis::synthesise(models.store, query, &models.places, graph);
-  } catch (const Error& error) {
-    Report report;
-    for (Problem problem : error.problems()) {
-      const graph::Id node =
-          problem.place.file.empty() ? models.store.terms().find_iri(problem.iri) : graph::Id{};
-      if (node) problem.place = models.places.find(node);
-      report.add(std::move(problem));
-    }
-    report.throw_if_errors();
-    throw;
-  }
-}
-
 }  // namespace
+
+void throw_with_places(const Models& models, const Error& error) {
+  Report report;
+  for (Problem problem : error.problems()) {
+    const graph::Id node =
+        problem.place.file.empty() ? models.store.terms().find_iri(problem.iri) : graph::Id{};
+    if (node) problem.place = models.places.find(node);
+    report.add(std::move(problem));
+  }
+  report.throw_if_errors();
+  throw error;
+}
 
 graph::Id algorithm_of(Models& models, const ModelOptions& files, const QueryOptions& options,
                        std::vector<std::string>* why, synthesis::AlgorithmGraph graph) {
@@ -211,7 +205,8 @@ graph::Id algorithm_of(Models& models, const synthesis::Query& asked, std::vecto
   synthesis::Query query = asked;
   if (!query.task) query.task = task_of(models);
   normalise(models, query, snap);
-  synthesis::Synthesis synthesis = synthesised(models, query, graph);
+  synthesis::Synthesis synthesis = with_places(
+      models, [&] { return synthesis::synthesise(models.store, query, &models.places, graph); });
   for (const std::string& note : synthesis.notes) print_note(note);
   if (why != nullptr) *why = std::move(synthesis.why);
   models.made.reset();

@@ -66,6 +66,18 @@ void note_held(const program::Program& program);
 // "robots/arm.urdf, solver rnea": for banners and reports.
 std::string describe(const ModelOptions& files, const QueryOptions& query);
 
+// The stages behind the graph know nodes, not files: what `make` throws gets the place where the
+// node at fault was written.
+[[noreturn]] void throw_with_places(const Models& models, const Error& error);
+template <typename Make>
+auto with_places(const Models& models, Make&& make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    throw_with_places(models, error);
+  }
+}
+
 // Prints problems that are no errors.
 void print_notes(const Report& report);
 

@@ -85,7 +85,8 @@ int run_run(Arguments arguments) {
     std::cerr << "sinew run: interpreting, since " << why << "\n";
     how = How::kInterpreted;
   }
-  Evaluator evaluator(program, how, backend::JitLevel::kFast);
+  Evaluator evaluator =
+      with_places(*models, [&] { return Evaluator(program, how, backend::JitLevel::kFast); });
 
   const program::Interface& interface = evaluator.interface();
   const auto columns = match_columns(column_names(program, interface.inputs), rows, input);

@@ -189,9 +189,10 @@ std::vector<std::string> variable_identifiers(const program::Program& program) {
   names.reserve(program.variables.size());
   taken.reserve(taken.size() + program.variables.size());
   for (const program::Variable& v : program.variables) {
-    const std::string base = c_identifier(v.name);
+    std::string base = c_identifier(v.name);
+    if (!is_c_function_name(base)) base = "v_" + base;  // of which nothing is reserved
     std::string name = base;
-    for (int again = 2; !is_c_function_name(name) || !taken.insert(name).second; ++again) {
+    for (int again = 2; !taken.insert(name).second; ++again) {
       name = fmt::format("{}_{}", base, again);
     }
     names.push_back(name);
@@ -206,7 +207,8 @@ GeneratedCode generate_c(const program::Program& program, const COptions& asked)
     throw Error(Problem{{},
                         {},
                         fmt::format("'{}' cannot name a C function", options.name),
-                        "use letters, digits and '_', not a reserved word",
+                        "use letters, digits and '_', no word of C or C++ and no name of their "
+                        "libraries",
                         Severity::kError,
                         {}});
   }

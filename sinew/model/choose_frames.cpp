@@ -15,6 +15,11 @@ namespace {
 constexpr double kRotationEntry = 3;
 constexpr double kPositionEntry = 2;
 constexpr double kInertiaEntry = 0.5;
+// How far along its axis a frame may go, as a multiple of the lengths around it. Where axes are
+// parallel but for an angle that somebody wrote as 1.5708, their common normal is kilometres away:
+// an inertia about a point there has lost its digits (the square of this number times the
+// round-off).
+constexpr double kFarthestSlide = 16;
 // Sweeps over all bodies; each ends when nothing gets better, in practice after two.
 constexpr int kMaximumSweeps = 5;
 
@@ -54,6 +59,9 @@ class Chooser {
     for (std::uint32_t j = 0; j < tree.joints.size(); ++j) {
       children_[tree.joints[j].predecessor].push_back(j);
     }
+    for (std::uint32_t body = 0; body < tree.bodies.size(); ++body) {
+      farthest_.push_back(kFarthestSlide * length_around(body));
+    }
   }
 
   void run() {
@@ -68,6 +76,17 @@ class Chooser {
 
  private:
   const Tree::Joint& joint_of(std::uint32_t body) const { return tree_.joints[body - 1]; }
+
+  // The longest distance from the body's frame to its neighbours' and to its centre of mass.
+  double length_around(std::uint32_t body) const {
+    double longest = 0;
+    const auto add = [&](const Vector3& p) { longest = std::max(longest, std::sqrt(dot(p, p))); };
+    if (body > 0) add(joint_of(body).placement.p);
+    for (const std::uint32_t child : children_[body]) add(tree_.joints[child].placement.p);
+    const Tree::Body& b = tree_.bodies[body];
+    if (b.has_inertia && b.inertia.mass > 0) add((1 / b.inertia.mass) * b.inertia.first_moment);
+    return longest;
+  }
 
   // The velocity of a free joint has coordinates in its successor's frame.
   bool fixed_by_joint(std::size_t body) const {
@@ -113,16 +132,22 @@ class Chooser {
     angles.push_back(angle);
   }
 
-  static void add_slide(std::vector<double>& slides, double slide) {
-    for (const double known : slides) {
-      if (std::abs(slide - known) < 1e-9) return;
+  struct Slides {
+    double farthest = 0;
+    std::vector<double> slides = {0};
+
+    void add(double slide) {
+      if (!(std::abs(slide) <= farthest)) return;
+      for (const double known : slides) {
+        if (std::abs(slide - known) < 1e-9) return;
+      }
+      slides.push_back(slide);
     }
-    slides.push_back(slide);
-  }
+  };
 
   // Turns and slides that make entries of a placement plain. `X` leads from the body's frame to a
   // neighbour's: x becomes perpendicular to both axes, or points from one to the other.
-  static void look_at(const Pose& X, std::vector<double>& angles, std::vector<double>& slides) {
+  static void look_at(const Pose& X, std::vector<double>& angles, Slides& slides) {
     const Vector3 axis = {X.R.xz, X.R.yz, X.R.zz};  // the neighbour's z
     if (std::hypot(axis.x, axis.y) < 1e-9) {
       add_angle(angles, X.p.y, X.p.x);
@@ -132,13 +157,14 @@ class Chooser {
       // Feet of the common normal of the two axes: the neighbour's p + t axis is nearest to z.
       const double sine2 = axis.x * axis.x + axis.y * axis.y;
       const double t = -(axis.x * X.p.x + axis.y * X.p.y) / sine2;
-      add_slide(slides, X.p.z + t * axis.z);
+      slides.add(X.p.z + t * axis.z);
     }
-    add_slide(slides, X.p.z);
+    slides.add(X.p.z);
   }
 
   std::vector<Pose> candidates_for(std::uint32_t body) const {
-    std::vector<double> angles = {0}, slides = {0};
+    std::vector<double> angles = {0};
+    Slides slides{farthest_[body]};
     const Tree::Joint& joint = joint_of(body);
     const Pose back = math::invert(joint.placement);
     look_at(back, angles, slides);
@@ -146,14 +172,14 @@ class Chooser {
     const Pose& in = joint.placement;
     for (const auto& [p, z] :
          {std::pair{in.p.x, in.R.xz}, std::pair{in.p.y, in.R.yz}, std::pair{in.p.z, in.R.zz}}) {
-      if (std::abs(z) > 1e-3) add_slide(slides, -p / z);
+      if (std::abs(z) > 1e-3) slides.add(-p / z);
     }
     for (const std::uint32_t child : children_[body]) {
       look_at(tree_.joints[child].placement, angles, slides);
     }
     std::vector<Pose> candidates;
     for (const double angle : angles) {
-      for (const double slide : slides) {
+      for (const double slide : slides.slides) {
         candidates.push_back({rotation_about_z(angle), {0, 0, slide}});
       }
       // A prismatic joint's axis has a direction but no place.
@@ -169,6 +195,7 @@ class Chooser {
   Tree& tree_;
   double tolerance_;
   std::vector<std::vector<std::uint32_t>> children_;
+  std::vector<double> farthest_;  // slide of each body's frame
 };
 
 }  // namespace
@@ -191,11 +218,28 @@ void move_frame(Tree& tree, std::uint32_t body, const Pose& X) {
   if (b.has_inertia) b.inertia = transformed(b.inertia, back.R, back.p);
 }
 
+double longest_length(const Tree& tree) {
+  double longest = 0;
+  const auto add = [&](const Vector3& p) {
+    longest = std::max({longest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  };
+  for (const Tree::Joint& joint : tree.joints) add(joint.placement.p);
+  for (const Tree::Frame& frame : tree.frames) add(frame.placement.p);
+  for (const Tree::Body& body : tree.bodies) {
+    if (!body.has_inertia || !(body.inertia.mass > 0)) continue;
+    add((1 / body.inertia.mass) * body.inertia.first_moment);
+    const auto& S = body.inertia.rotational;
+    longest = std::max(longest, std::sqrt(std::max({S.xx, S.yy, S.zz}) / body.inertia.mass));
+  }
+  return longest;
+}
+
 void snap(Tree& tree, double tolerance, double length_tolerance) {
   for (Tree::Joint& joint : tree.joints) snap(joint.placement, tolerance, length_tolerance);
   for (Tree::Frame& frame : tree.frames) snap(frame.placement, tolerance, length_tolerance);
   for (Tree::Body& body : tree.bodies) {
-    if (body.has_inertia) snap(body.inertia, length_tolerance);
+    if (body.has_inertia)
+      snap(body.inertia, std::min(tolerance, kLengthTolerance), length_tolerance);
   }
 }
 

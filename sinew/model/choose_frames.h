@@ -18,8 +18,12 @@ void choose_frames(Tree& tree, double tolerance);
 // joint's frame. X must keep the joint's axis.
 void move_frame(Tree& tree, std::uint32_t body, const Pose& X);
 
+// The longest distance that the tree knows of [m]: of placements, centres of mass, and how far from
+// them a body's mass lies. Zero if all of it is in one point.
+double longest_length(const Tree& tree);
+
 // Clears the dust of computing from all constants: what is within `tolerance` of 0, 1 or -1 is
-// that.
+// that, and so is a part of an inertia beside its others; lengths below `length_tolerance` are 0.
 void snap(Tree& tree, double tolerance, double length_tolerance);
 
 }  // namespace sinew::model

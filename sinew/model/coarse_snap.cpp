@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 #include "sinew/model/inertia.h"
@@ -32,10 +31,7 @@ class Snapper {
   template <typename Value>
   void snap_one(Value& value, graph::Id iri, const char* what) {
     const auto before = numbers(value);
-    if constexpr (std::is_same_v<Value, Pose>)
-      snap(value, tolerance_, tolerance_);
-    else
-      snap(value, tolerance_);
+    snap(value, tolerance_, tolerance_);
     const auto after = numbers(value);
     std::size_t count = 0;
     double largest = 0;

@@ -51,10 +51,9 @@ RigidBodyInertia operator+(const RigidBodyInertia& a, const RigidBodyInertia& b)
   return {a.mass + b.mass, a.first_moment + b.first_moment, a.rotational + b.rotational};
 }
 
-void snap(RigidBodyInertia& I, double tolerance) {
-  // A centre of mass within the tolerance of an axis, in metres, is on it.
+void snap(RigidBodyInertia& I, double tolerance, double length_tolerance) {
   for (double* h : {&I.first_moment.x, &I.first_moment.y, &I.first_moment.z}) {
-    if (std::abs(*h) < tolerance * std::abs(I.mass)) *h = 0;
+    if (std::abs(*h) < length_tolerance * std::abs(I.mass)) *h = 0;
   }
   Symmetric3& S = I.rotational;
   const double largest = std::max({std::abs(S.xx), std::abs(S.yy), std::abs(S.zz)});

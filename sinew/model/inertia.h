@@ -14,8 +14,9 @@ RigidBodyInertia about_centre_of_mass(const RigidBodyInertia& I);
 
 RigidBodyInertia operator+(const RigidBodyInertia& a, const RigidBodyInertia& b);
 
-// Clears entries that are dust next to the others: below `tolerance` of the largest of their kind.
-void snap(RigidBodyInertia& I, double tolerance);
+// Clears entries that are dust next to the others: moments below `tolerance` of the largest, and a
+// centre of mass closer than `length_tolerance` to an axis.
+void snap(RigidBodyInertia& I, double tolerance, double length_tolerance);
 
 // The eigenvalues of a symmetric matrix, in ascending order.
 Vector3 eigenvalues(const math::Symmetric3<double>& S);

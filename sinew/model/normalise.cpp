@@ -356,7 +356,9 @@ Tree normalise(graph::Store& store, const graph::Places& places, const Normalise
   if (report.has_errors()) return {};
   // Round-off first: it is not worth a word.
   const double round_off = std::min(options.snap_tolerance, kSnapTolerance);
-  const double short_length = std::min(options.snap_tolerance, kLengthTolerance);
+  const double length = std::min(1.0, longest_length(work.tree));
+  const double short_length =
+      std::min(options.snap_tolerance, kLengthTolerance) * (length > 0 ? length : 1);
   snap(work.tree, round_off, short_length);
   if (options.snap_tolerance > kSnapTolerance) {
     std::ranges::move(snap_coarsely(work.tree, options.snap_tolerance, store.terms()),

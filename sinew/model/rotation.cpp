@@ -71,13 +71,19 @@ Matrix3 rotation_with_z(const Vector3& axis) {
   if (z.x == 0 && z.y == 0) {
     return z.z > 0 ? identity_rotation() : Matrix3{1, 0, 0, 0, -1, 0, 0, 0, -1};
   }
+  // Tilts whose squares vanish beside 1: the frame stays where it would be without them, so that
+  // no more than its z has entries of their size.
+  const double n = std::hypot(z.x, z.y);
+  if (n <= kSnapTolerance) {
+    return z.z > 0 ? Matrix3{1, 0, z.x, 0, 1, z.y, -z.x, -z.y, 1}
+                   : Matrix3{1, 0, z.x, 0, -1, z.y, z.x, -z.y, -1};
+  }
   // x is perpendicular to z and to the model's z, so that it has no z entry; where z lies in the
   // model's x-y plane, x is the model's z itself.
-  if (z.z == 0) {
-    const Vector3 x = {0, 0, 1};
+  if (std::abs(z.z) <= kSnapTolerance) {
+    const Vector3 x = {-z.z * z.x, -z.z * z.y, 1};
     return from_columns(x, cross(z, x), z);
   }
-  const double n = std::hypot(z.x, z.y);
   const Vector3 x = {-z.y / n, z.x / n, 0};
   return from_columns(x, cross(z, x), z);
 }

@@ -9,9 +9,10 @@ namespace sinew::model {
 // Direction cosines closer than this to 0, 1 or -1 are exactly that: what pi leaves behind that was
 // written with twelve digits, or computed. (1.5708 is not pi/2 and stays what it is.)
 constexpr double kSnapTolerance = 1e-12;
-// The same for lengths [m] and, as a share of the largest of their kind, parts of an inertia: what
-// some frames composed leave behind, and no number that somebody wrote. (A light floating base
-// turns 1e-13 of an inertia into 1e-8 of an acceleration.)
+// The same for lengths (of a metre or, if the whole tree is smaller, of its longest) and, as a
+// share of the largest of their kind, parts of an inertia: what some frames composed leave behind,
+// and no number that somebody wrote. (A light floating base turns 1e-13 of an inertia into 1e-8 of
+// an acceleration.)
 constexpr double kLengthTolerance = 1e-14;
 // The same for the sine and cosine of an angle that was read: what rounding pi/2 to a double
 // leaves.

@@ -297,9 +297,11 @@ class Importer {
     if (std::abs(length - 1) > 1e-15) {
       for (double& entry : direction) entry /= length;
     }
+    // Beside an entry of exactly 1 there is room for others of up to 1e-8, a tilt to be kept.
     int along = -1;
     for (int i = 0; i < 3; ++i) {
-      if (std::abs(direction[i]) == 1) along = i;
+      if (std::abs(direction[i]) == 1 && direction[(i + 1) % 3] == 0 && direction[(i + 2) % 3] == 0)
+        along = i;
     }
     const bool negative = along >= 0 && direction[along] < 0;
     add(subject, vocab::kc::polarity,

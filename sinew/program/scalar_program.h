@@ -17,7 +17,7 @@ struct ScalarProgram {
 };
 
 // Removes dead closures, snaps constants, traces and optimises. Throws Error if the program is not
-// valid or a name in `partial` fits nothing.
+// valid, divides by a constant zero, or a name in `partial` fits nothing.
 ScalarProgram scalar_program(const Program& program, const OptimiseOptions& options = {},
                              const PartialOptions& partial = {});
 

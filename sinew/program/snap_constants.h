@@ -1,7 +1,8 @@
 // Constants that differ from 0 or ±1 by round-off become exactly that, so that the operations with
 // them vanish. What is round-off is decided by size: a rotation's entry within 1e-12 of 0 or ±1; a
-// length or a part of an inertia or twist that is smaller than a small share of the largest of its
-// kind.
+// length that is a small share of a metre, or of the longest where all are shorter; a part of an
+// inertia or twist beside the other parts of the same one. Beside those of another body, however
+// heavy, nothing is round-off: what a light finger at the end of a crane needs depends on it alone.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@
 namespace sinew::program {
 
 inline constexpr double kRotationTolerance = 1e-12;  // of direction cosines
-inline constexpr double kLengthShare = 1e-14;        // of the largest length in the program's poses
-inline constexpr double kInertiaShare = 1e-14;       // of the largest mass, first or second moment
+inline constexpr double kLengthShare = 1e-14;        // of a metre or, if that is less, the longest
+inline constexpr double kInertiaShare = 1e-14;       // of the same inertia's largest second moment
 inline constexpr double kTwistShare = 1e-14;         // of the largest part of the same twist
 
 struct SnappedConstant {

@@ -314,7 +314,8 @@ TEST(GeneratedC, DescribesItsInterface) {
 
 TEST(GeneratedC, NeedsANameThatCanNameAFunction) {
   const program::Program program = test::inverse_dynamics(test::mixed_chain());
-  for (const char* name : {"", "7dof", "a-b", "while", "sin", "class"}) {
+  for (const char* name : {"", "7dof", "a-b", "while", "sin", "class", "log", "y0", "gammaf",
+                           "index", "linux", "M_PI", "__f", "_Bool"}) {
     backend::COptions options;
     options.name = name;
     EXPECT_THROW(generate_c(program, options), Error) << name;

@@ -1,6 +1,7 @@
 // What a URDF may say, what becomes of it, and how faults are reported.
 #include "sinew/model/urdf.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -111,6 +112,52 @@ TEST(Urdf, DoesNotTakeRoundedQuartersForQuarters) {
                std::string::npos;
   });
   EXPECT_NE(says, coarse.tree.notes.end());
+}
+
+// 1 and the square root of 1 + 3e-8^2 are the same double.
+TEST(Urdf, KeepsAnAxisThatIsNearlyAnAxisOfTheFrame) {
+  Model model;
+  NormaliseOptions options;
+  options.choose_frames = false;
+  normalise_texts(model, {urdf(kTwoLinks + joint_text("<axis xyz=\"3e-8 0 1\"/>"))}, options);
+  ASSERT_EQ(first_error(model), "");
+  const Matrix3& R = model.tree.joints[0].placement.R;
+  EXPECT_DOUBLE_EQ(R.xz, 3e-8);
+  EXPECT_EQ(R.yz, 0);
+  EXPECT_DOUBLE_EQ(R.zz, 1);
+}
+
+TEST(Urdf, MeasuresRoundOffByTheRobotWhereItIsSmallerThanAMetre) {
+  for (const double size : {1.0, 1e-7}) {
+    Model model;
+    NormaliseOptions options;
+    options.choose_frames = false;
+    const std::string links = "<link name=\"a\"/><link name=\"b\"/>";
+    const std::string origin = fmt::format("<axis xyz=\"0 0 1\"/><origin xyz=\"{} {} {}\"/>", size,
+                                           1e-13 * size, 1e-15 * size);
+    normalise_texts(model, {urdf(links + joint_text(origin))}, options);
+    ASSERT_EQ(first_error(model), "");
+    const Vector3& p = model.tree.joints[0].placement.p;
+    EXPECT_EQ(p.x, size);
+    EXPECT_EQ(p.y, 1e-13 * size);
+    EXPECT_EQ(p.z, 0);
+  }
+}
+
+// The common normal of two axes with an angle of 1e-6 between them is 200 km away from here.
+TEST(Urdf, SlidesNoFrameFarAlongItsAxis) {
+  const std::string links = std::string(kTwoLinks) + "<link name=\"c\"/>";
+  const std::string joints =
+      "<joint name=\"j\" type=\"continuous\"><parent link=\"a\"/><child link=\"b\"/>"
+      "<axis xyz=\"0 0 1\"/><origin xyz=\"0.1 0.2 0.3\"/></joint>"
+      "<joint name=\"k\" type=\"continuous\"><parent link=\"b\"/><child link=\"c\"/>"
+      "<axis xyz=\"0 1e-6 1\"/><origin xyz=\"0.3 0.2 0.1\"/></joint>";
+  Model model;
+  normalise_texts(model, {urdf(links + joints)});
+  ASSERT_EQ(first_error(model), "");
+  ASSERT_EQ(model.tree.joints.size(), 2U);
+  for (const Tree::Joint& joint : model.tree.joints)
+    EXPECT_LT(std::sqrt(dot(joint.placement.p, joint.placement.p)), 20);
 }
 
 struct AxisCase {

@@ -37,6 +37,28 @@ TEST(SnapConstants, KnowsSmallRobotsFromRoundOff) {
   EXPECT_EQ(p.variables[1].value[1], 0.0);
 }
 
+TEST(SnapConstants, KeepsALightBodyBesideAHeavyOne) {
+  Program p;
+  p.variables = {
+      constant("rigid-body-inertia", {1e6, 1e7, 0, 0, 1e8, 0, 0, 1e8, 0, 1e8}),
+      constant("rigid-body-inertia", {1e-3, 1e-6, 0, 1e-18, 1e-9, 1e-16, 1e-24, 1e-9, 0, 1e-9})};
+  const auto snapped = snap_constants(p);
+  ASSERT_EQ(snapped.size(), 2U);  // 1e-15 m beside an axis, and 1e-15 of the moments
+  EXPECT_EQ(snapped[0].number, 3U);
+  EXPECT_EQ(snapped[1].number, 6U);
+}
+
+TEST(SnapConstants, MeasuresLengthsByTheRobotWhereItIsShorterThanAMetre) {
+  Program p;
+  p.variables = {constant("pose", {1, 0, 0, 1e-7, 0, 1, 0, 1e-20, 0, 0, 1, 1e-22})};
+  const auto snapped = snap_constants(p);
+  ASSERT_EQ(snapped.size(), 1U);
+  EXPECT_EQ(snapped[0].number, 11U);
+  p.variables = {constant("pose", {1, 0, 0, 1e9, 0, 1, 0, 1e-13, 0, 0, 1, 1e-15})};
+  ASSERT_EQ(snap_constants(p).size(), 1U);
+  EXPECT_EQ(p.variables[0].value[7], 1e-13);
+}
+
 TEST(SnapConstants, MeasuresATwistByItself) {
   Program p;
   p.variables = {constant("acceleration-twist", {0, 0, 0, 6e-16, -1e-20, 9.81})};
