@@ -14,6 +14,7 @@
 #include <span>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "sinew/algorithm/model.h"
 #include "sinew/graph/store.h"
@@ -81,6 +82,8 @@ class Builder {
   void finish();
 
   const Algorithm& algorithm() const { return algorithm_; }
+  // Hands it out, after finish().
+  Algorithm take() { return std::move(algorithm_); }
   const Block& at(std::uint32_t block) const { return algorithm_.blocks[block]; }
   const Names& names() const { return names_; }
   graph::Terms& terms() { return terms_; }

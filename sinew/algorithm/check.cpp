@@ -31,9 +31,12 @@ void check_rule(const Terms& terms, const Algorithm& algorithm, const Closure& c
                 const FrameRule& rule, Report& report) {
   // Rules speak of single arguments; a port that takes many is checked against each of them.
   const auto each = [&](Symbol symbol, auto&& visit) {
+    const auto attribute = static_cast<std::size_t>(symbol.attribute);
+    if (closure.counts.empty())
+      return visit(algorithm.blocks[closure.arguments[symbol.port]].symbols[attribute]);
     for_each_argument(closure, [&](const Port& port, std::uint32_t block) {
       if (&port == &closure.op->ports[symbol.port])
-        visit(algorithm.blocks[block].symbols[static_cast<std::size_t>(symbol.attribute)]);
+        visit(algorithm.blocks[block].symbols[attribute]);
     });
   };
   each(rule.left, [&](Id left) {

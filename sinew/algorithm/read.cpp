@@ -379,7 +379,7 @@ void put_in_order(Algorithm& model) {
   const auto take_sorted = [&](auto&& wanted) {
     std::vector<std::uint32_t> some;
     for (std::uint32_t i = 0; i < model.blocks.size(); ++i)
-      if (wanted(model.blocks[i])) some.push_back(i);
+      if (seen[i] == 0 && wanted(model.blocks[i])) some.push_back(i);
     std::sort(some.begin(), some.end(), [&](std::uint32_t a, std::uint32_t b) {
       const Block &x = model.blocks[a], &y = model.blocks[b];
       return std::tie(x.index, x.name) < std::tie(y.index, y.name);

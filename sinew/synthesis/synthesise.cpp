@@ -289,7 +289,7 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   transaction.clear(context.slots_graph());
   builder.finish();
   if (!control) {
-    result.model = builder.algorithm();
+    result.model = builder.take();
     algorithm::put_in_order(*result.model);
   }
   if (control && control->period_s)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "sinew/program/passes/associate.h"
@@ -17,11 +18,13 @@ class Reader {
 
   void run() {
     const std::uint32_t n = dag().size();
-    contents_.assign(n, 0);
+    contents_ = std::make_unique_for_overwrite<Contents[]>(n);
     system_.is_sum.assign(n, 0);
     system_.sums.assign(n, {});
     system_.terms.clear();
     system_.factors.clear();
+    system_.terms.reserve(n);
+    system_.factors.reserve(2 * std::size_t{n});
     for (std::uint32_t i = 0; i < n; ++i) {
       if (uses_[i] == 0) continue;
       const Node& node = dag().node(i);
@@ -143,7 +146,7 @@ class Reader {
 
   Polynomials& system_;
   std::vector<std::uint32_t> uses_;
-  std::vector<Contents> contents_;  // of each sum
+  std::unique_ptr<Contents[]> contents_;  // of each sum
 };
 
 // Builds the graph again, operands first.

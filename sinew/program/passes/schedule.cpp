@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "sinew/program/dag/evaluate.h"
 #include "sinew/program/passes/latency.h"
@@ -49,6 +50,9 @@ class Scheduler {
                        [&](std::uint32_t operand) { users_.all[next[operand]++] = i; });
     }
   }
+
+  // The most values that were live at a time, after run(): what live_values() says of the order.
+  std::uint32_t most() const { return most_; }
 
   std::vector<std::uint32_t> run() {
     const std::uint32_t n = dag_.size();
@@ -134,6 +138,7 @@ class Scheduler {
         if (state_[user] == State::kReady) push(user);
       }
     });
+    if (in_register(node.op)) most_ = std::max(most_, count_ + 1);
     if (stays(next)) ++count_;
     for (const std::uint32_t user : users_[next]) {
       if (--missing_[user] == 0) push(user);
@@ -162,7 +167,8 @@ class Scheduler {
   std::vector<int> growth_;             // values more that are live after the node
   std::vector<State> state_;
   std::array<Queue, kGrowths> ready_;  // by growth
-  std::uint32_t count_ = 0;
+  std::uint32_t count_ = 0;            // values that are live
+  std::uint32_t most_ = 0;
 };
 
 }  // namespace
@@ -195,8 +201,9 @@ std::uint32_t live_values(const Computation& computation) {
 Computation schedule(Computation computation) {
   computation.order.clear();
   const std::uint32_t before = live_values(computation);
-  computation.order = Scheduler(computation).run();
-  if (before > kLiveLimit && live_values(computation) > before) computation.order.clear();
+  Scheduler scheduler(computation);
+  std::vector<std::uint32_t> order = scheduler.run();
+  if (before <= kLiveLimit || scheduler.most() <= before) computation.order = std::move(order);
   return computation;
 }
 
