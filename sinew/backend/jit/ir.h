@@ -18,6 +18,7 @@ class Ir {
   LLVMContextRef context() const { return context_; }
   LLVMTypeRef type() const { return type_; }
   unsigned lanes() const { return lanes_; }
+  bool fuses() const { return fuse_; }
 
   LLVMValueRef number(double value) const;  // in every lane; rounded where the type is float
   // The same lanes as doubles, and back to the type; nothing where they are doubles.

@@ -33,36 +33,43 @@ LLVMValueRef horner(const Ir& ir, LLVMValueRef z, const double (&coefficients)[6
   return sum;
 }
 
+// cos = 1 - z/2 + z^2 c(z)
+LLVMValueRef cosine_of(const Ir& ir, LLVMValueRef z, LLVMValueRef polynomial) {
+  const LLVMValueRef one = ir.number(1.0);
+  if (ir.fuses()) {
+    return ir.multiply_add(z, ir.multiply_add(z, polynomial, ir.number(-0.5)), one);
+  }
+  // 1 - z/2 is rounded once, and its error put back.
+  const LLVMValueRef half = ir.multiply(z, ir.number(0.5));
+  const LLVMValueRef near = ir.subtract(one, half);
+  const LLVMValueRef error = ir.subtract(ir.subtract(one, near), half);
+  return ir.add(near, ir.add(error, ir.multiply(ir.multiply(z, z), polynomial)));
+}
+
 struct Pair {
   LLVMValueRef sine, cosine;
 };
 
+// Within 0.9 units in the last place; 0.95 where the machine cannot fuse.
 Pair fast_sincos(const Ir& ir, LLVMValueRef x) {
-  const LLVMValueRef shifted = ir.add(ir.multiply(x, ir.number(kTwoOverPi)), ir.number(kRounder));
+  const LLVMValueRef shifted = ir.multiply_add(x, ir.number(kTwoOverPi), ir.number(kRounder));
   const LLVMValueRef quotient = ir.subtract(shifted, ir.number(kRounder));
   const LLVMValueRef bits = ir.to_integer_bits(shifted);
 
-  // r + tail = x - quotient * pi/2. Each step keeps what its subtraction rounds away.
-  const LLVMValueRef r1 = ir.subtract(x, ir.multiply(quotient, ir.number(kHalfPi1)));
-  const LLVMValueRef w2 = ir.multiply(quotient, ir.number(kHalfPi2));
-  const LLVMValueRef r2 = ir.subtract(r1, w2);
-  const LLVMValueRef e2 = ir.subtract(ir.subtract(r1, r2), w2);
-  const LLVMValueRef w3 = ir.subtract(ir.multiply(quotient, ir.number(kHalfPi3)), e2);
-  const LLVMValueRef r = ir.subtract(r2, w3);
-  const LLVMValueRef tail = ir.subtract(ir.subtract(r2, r), w3);
+  // r + tail = x - quotient * pi/2; the first two products are exact, and so is what they leave,
+  // but for r, whose rounding goes into the tail.
+  const LLVMValueRef back = ir.negate(quotient);
+  const LLVMValueRef r1 = ir.multiply_add(back, ir.number(kHalfPi1), x);
+  const LLVMValueRef r = ir.multiply_add(back, ir.number(kHalfPi2), r1);
+  const LLVMValueRef lost = ir.multiply_add(back, ir.number(kHalfPi2), ir.subtract(r1, r));
+  const LLVMValueRef tail = ir.multiply_add(back, ir.number(kHalfPi3), lost);
 
-  const LLVMValueRef z = ir.multiply(r, r);
-  // sin(r + tail) ~ sin(r) + tail (1 - z/2)
-  const LLVMValueRef cube = ir.multiply(z, r);
-  const LLVMValueRef half_z = ir.multiply(z, ir.number(0.5));
-  const LLVMValueRef sine_tail = ir.subtract(tail, ir.multiply(half_z, tail));
-  const LLVMValueRef sine = ir.add(r, ir.multiply_add(cube, horner(ir, z, kSine), sine_tail));
-  // cos(r + tail) ~ cos(r) - r tail, with 1 - z/2 rounded once and its error put back
-  const LLVMValueRef one_minus = ir.subtract(ir.number(1.0), half_z);
-  const LLVMValueRef error = ir.subtract(ir.subtract(ir.number(1.0), one_minus), half_z);
-  const LLVMValueRef rest = ir.multiply_add(ir.multiply(z, z), horner(ir, z, kCosine),
-                                            ir.subtract(error, ir.multiply(r, tail)));
-  const LLVMValueRef cosine = ir.add(one_minus, rest);
+  const LLVMValueRef square = ir.multiply(r, r);
+  // (r + tail)^2, but for the square of the tail
+  const LLVMValueRef z = ir.multiply_add(r, r, ir.multiply(ir.add(r, r), tail));
+  const LLVMValueRef sine =
+      ir.add(r, ir.multiply_add(ir.multiply(square, r), horner(ir, square, kSine), tail));
+  const LLVMValueRef cosine = cosine_of(ir, z, horner(ir, square, kCosine));
 
   // Quadrant q: (sin, cos) = (s, c), (c, -s), (-s, -c), (-c, s).
   const LLVMValueRef odd = ir.bit_is_set(bits, 0);
