@@ -28,8 +28,9 @@ enum class JitLevel : std::uint8_t {
 
 struct JitOptions {
   JitLevel level = JitLevel::kFull;
-  std::string
-      cache_folder;  // compiled code is kept here under a hash of its content; empty: nowhere
+  // Compiled code is kept here, under a hash of the program, the processor and this build of the
+  // compiler; empty: nowhere.
+  std::string cache_folder;
   // Without it only the function of one sample is compiled, in less than half the time; a batch
   // calls it sample by sample.
   bool batch = true;

@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 
+#include "sinew/backend/jit/build_identity.h"
 #include "sinew/backend/jit/content_hash.h"
 #include "sinew/backend/jit/emit.h"
 #include "sinew/backend/jit/entry.h"
@@ -220,9 +221,9 @@ extern "C" void SINEW_JIT_COMPILE(const program::Computation& computation,
   std::string object;
   std::filesystem::path cached;
   bool from_cache = false;
-  if (!options.cache_folder.empty()) {
-    std::string machine = this_host.triple + this_host.cpu + this_host.features + "LLVM" +
-                          std::to_string(LLVM_VERSION_MAJOR);
+  static const std::string identity = build_identity();
+  if (!options.cache_folder.empty() && !identity.empty()) {
+    std::string machine = this_host.triple + this_host.cpu + this_host.features + identity;
     machine += wanted.is_float ? " float" : " double";
     if (wanted.block) machine += " block";
     if (wanted.one_by_one) machine += " one by one";
