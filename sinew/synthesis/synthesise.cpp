@@ -232,7 +232,9 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   if (circumstances.gravity_is_constant)
     circumstances.gravity = gravity(view, robot, query, result.notes);
   const std::vector<Step> together = steps_together(view, robot, query, resolved, circumstances);
-  std::vector<Step> uncoupled = available_steps(drivers, together, models, false);
+  // Those for another robot, which tell what is at fault where some joints follow others.
+  std::vector<Step> uncoupled;
+  if (robot.coupled()) uncoupled = available_steps(drivers, together, models, false);
   std::vector<Step> available = available_steps(drivers, together, models, robot.coupled());
   // Bias forces are there already, or are not all that bodies need.
   if (control || resolved.wants("bias-force"))

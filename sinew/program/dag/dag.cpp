@@ -21,12 +21,29 @@ std::uint64_t hash(const Node& node) {
   return h ^ h >> 32U;
 }
 
+// The same for a sum or product, of which all else is zero.
+std::uint64_t hash(Op op, Ref a, Ref b) {
+  std::uint64_t h = (std::uint64_t{a.bits} << 32U | b.bits) * kMix;
+  h = (h ^ h >> 32U ^ static_cast<std::uint64_t>(op)) * kMix;
+  return h ^ h >> 32U;
+}
+
 // A place of the table.
 constexpr unsigned kNodeBits = 24;
 constexpr std::uint32_t kNodeMask = (1U << kNodeBits) - 1;
 static_assert(Dag::kMaximumNodes <= kNodeMask);
 std::uint32_t entry(std::uint32_t node, std::uint64_t hash) {
   return static_cast<std::uint32_t>(hash >> 56U) << kNodeBits | (node + 1);
+}
+
+Error too_many_nodes() {
+  return Error(Problem{{},
+                       {},
+                       "the program expands to more than " + std::to_string(Dag::kMaximumNodes) +
+                           " scalar operations",
+                       "ask for fewer results at once",
+                       Severity::kError,
+                       {}});
 }
 
 bool same(const Node& x, const Node& y) {
@@ -57,35 +74,43 @@ void Dag::rehash(std::size_t size) {
   }
 }
 
-Ref Dag::intern(const Node& node) {
+template <typename Same>
+Ref Dag::find_or_add(const Node& node, std::uint64_t hash, Same same) {
   const std::size_t places = table_.size();
   const std::uint64_t mask = places - 1;
   std::uint32_t* const table = table_.data();
   const Node* const nodes = nodes_.data();
-  const std::uint64_t h = hash(node);
-  std::uint64_t at = h & mask;
+  std::uint64_t at = hash & mask;
   for (std::uint32_t there; (there = table[at]) != 0; at = (at + 1) & mask) {
     // Nodes whose hashes differ in the bits that are kept need not be looked at.
-    if (there >> kNodeBits != h >> 56U) continue;
+    if (there >> kNodeBits != hash >> 56U) continue;
     const std::uint32_t found = (there & kNodeMask) - 1;
-    if (same(nodes[found], node)) return Ref::of(found);
+    if (same(nodes[found])) return Ref::of(found);
   }
   const std::size_t count = nodes_.size();
-  if (count >= kMaximumNodes) {
-    throw Error(Problem{
-        {},
-        {},
-        "the program expands to more than " + std::to_string(kMaximumNodes) + " scalar operations",
-        "ask for fewer results at once",
-        Severity::kError,
-        {}});
-  }
+  if (count >= kMaximumNodes) throw too_many_nodes();
   const auto index = static_cast<std::uint32_t>(count);
   nodes_.push_back(node);
-  if (arity(node.op) > 0) nodes_.back().origin = origin_;
-  table[at] = entry(index, h);
+  table[at] = entry(index, hash);
   if (count * 2 + 2 > places) rehash(places * 2);
   return Ref::of(index);
+}
+
+Ref Dag::intern(const Node& like) {
+  Node node = like;
+  if (arity(node.op) > 0) node.origin = origin_;
+  return find_or_add(node, hash(node), [&](const Node& other) { return same(other, node); });
+}
+
+Ref Dag::intern(Op op, Ref a, Ref b) {
+  Node node;
+  node.op = op;
+  node.a = a;
+  node.b = b;
+  node.origin = origin_;
+  return find_or_add(node, hash(op, a, b), [=](const Node& other) {
+    return other.op == op && other.a == a && other.b == b;
+  });
 }
 
 double Dag::sum_of_constants(double x, double y) {
@@ -154,11 +179,7 @@ std::uint32_t Dag::unscaled(Ref ref) const {
 Ref Dag::new_sum(Ref a, Ref b) {
   if (a.node() > b.node()) std::swap(a, b);
   const bool flip = a.negative();
-  Node node;
-  node.op = Op::kAdd;
-  node.a = a.negated_if(flip);
-  node.b = b.negated_if(flip);
-  return intern(node).negated_if(flip);
+  return intern(Op::kAdd, a.negated_if(flip), b.negated_if(flip)).negated_if(flip);
 }
 
 Ref Dag::multiply(Ref a, Ref b) {
@@ -184,13 +205,7 @@ Ref Dag::multiply(Ref a, Ref b) {
   return new_product(a, b).negated_if(flip);  // a constant factor comes first
 }
 
-Ref Dag::new_product(Ref a, Ref b) {
-  Node node;
-  node.op = Op::kMultiply;
-  node.a = a;
-  node.b = b;
-  return intern(node);
-}
+Ref Dag::new_product(Ref a, Ref b) { return intern(Op::kMultiply, a, b); }
 
 Ref Dag::fma(Ref a, Ref b, Ref c) {
   const bool trivial = is_constant(a, 0.0) || is_constant(b, 0.0) || is_constant(c, 0.0) ||

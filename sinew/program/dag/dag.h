@@ -121,6 +121,10 @@ class Dag {
 
  private:
   Ref intern(const Node& node);
+  Ref intern(Op op, Ref a, Ref b);  // of a sum or product
+  // The node that is the `same`, or this one anew; its hash is known.
+  template <typename Same>
+  Ref find_or_add(const Node& node, std::uint64_t hash, Same same);
   // The node of which this one is a constant multiple, or itself.
   std::uint32_t unscaled(Ref ref) const;
   Ref new_sum(Ref a, Ref b);
