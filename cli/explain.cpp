@@ -51,7 +51,9 @@ int run_explain(Arguments arguments) {
   std::size_t line = 0;
   app.add_option("SIDECAR", file, "The NAME.json that 'sinew generate' wrote beside NAME.c")
       ->required();
-  app.add_option("LINE", line, "Line of NAME.c, counted from 1")->required();
+  app.add_option("LINE", line, "Line of NAME.c, counted from 1")
+      ->required()
+      ->check(CLI::PositiveNumber);
   if (const auto code = parse(app, std::move(arguments))) return *code;
 
   const Json document = read_sidecar(file);

@@ -1,6 +1,7 @@
 #include "options.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "sinew/model/coarse_snap.h"
@@ -68,7 +69,10 @@ void add_query_options(CLI::App& app, QueryOptions& options) {
                  "Take the robot's constants within so much of 0, 1 or -1 for that, and say which "
                  "were changed (default: what round-off leaves, 1e-12 of direction cosines, 1e-14 "
                  "of the rest)")
-      ->check(CLI::Range(0.0, model::kCoarsestSnap));
+      ->check(CLI::Range(0.0, model::kCoarsestSnap))
+      ->check([](const std::string& text) {  // nan is in no range, and outside of none
+        return std::string(std::isnan(std::stod(text)) ? text + " is no number" : "");
+      });
   app.add_flag("--floating", options.floating, "The base moves freely");
   app.add_flag("--forces-apart", options.forces_apart,
                "Keep the share of each external wrench in each joint's force apart");

@@ -6,23 +6,41 @@
 #include <vector>
 
 #include "sinew/base/error.h"
+#include "sinew/program/interface.h"
 
 namespace sinew::program {
 namespace {
 
+constexpr const char* kRemedy =
+    "look for bodies that no force or torque could accelerate by a finite amount, or numbers far "
+    "too large or too small, there and in what it carries";
+
+// A result that is no number by itself.
+[[noreturn]] void refuse_result(std::size_t result, const Program& program) {
+  Problem problem;
+  problem.iri = program.iri;
+  problem.what = "it divides by zero, or overflows, whatever its inputs are";
+  problem.remedy = kRemedy;
+  for (const Slot& slot : interface_of(program).outputs) {
+    const Variable& variable = program.variables[slot.variable];
+    if (result < slot.offset || result >= slot.offset + variable.size) continue;
+    problem.iri = variable.represents.empty() ? variable.iri : variable.represents;
+    problem.what = fmt::format("its {} is no number whatever the inputs are", variable.name);
+  }
+  throw Error(std::move(problem));
+}
+
 [[noreturn]] void refuse(std::uint32_t origin, const Program& program) {
   Problem problem;
   problem.iri = program.iri;
-  problem.what = "it divides by zero whatever its inputs are";
+  problem.what = "it divides by zero, or overflows, whatever its inputs are";
   if (origin < program.closures.size()) {
     const Closure& closure = program.closures[origin];
     if (!closure.about.empty()) problem.iri = closure.about;
     problem.what = fmt::format("its '{}' divides by zero, or overflows, whatever the inputs are",
                                closure.operation);
   }
-  problem.remedy =
-      "look for bodies that no force or torque could accelerate by a finite amount, or numbers far "
-      "too large or too small, there and in what it carries";
+  problem.remedy = kRemedy;
   throw Error(std::move(problem));
 }
 
@@ -36,9 +54,9 @@ void require_finite(const Computation& computation, const Program& program) {
   // Results first, then operands: a node has a larger index than its operands, and only what is
   // used counts (a branch that a constant condition never takes may divide by zero).
   std::vector<bool> used(dag.size());
-  for (const Ref result : computation.results) {
-    if (infinite(result)) refuse(dag.node(result).origin, program);
-    used[result.node()] = true;
+  for (std::size_t k = 0; k < computation.results.size(); ++k) {
+    if (infinite(computation.results[k])) refuse_result(k, program);
+    used[computation.results[k].node()] = true;
   }
   for (std::uint32_t index = dag.size(); index-- > 0;) {
     if (!used[index]) continue;

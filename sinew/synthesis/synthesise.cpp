@@ -25,6 +25,7 @@
 #include "sinew/synthesis/results.h"
 #include "sinew/synthesis/step_models.h"
 #include "sinew/synthesis/steps_together.h"
+#include "sinew/synthesis/weightless.h"
 
 namespace sinew::synthesis {
 namespace {
@@ -273,6 +274,8 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
   context.drivers = std::move(drivers);
   context.transaction = &transaction;
   context.gravity = circumstances.gravity;
+  check_there_is_mass(context, report);
+  throw_with_query(query, report);
   context.inertias = stated_inertias(context);
   if (query.regroup && resolved.regroups)
     regroup(context, context.inertias,

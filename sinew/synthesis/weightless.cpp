@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/synthesis/asked.h"
 #include "sinew/synthesis/joint_edge.h"
+#include "sinew/synthesis/query_faults.h"
 #include "sinew/synthesis/regroup.h"
 
 namespace sinew::synthesis {
@@ -56,6 +58,21 @@ void check(Context& context, const Visit& visit) {
 }
 
 }  // namespace
+
+void check_there_is_mass(const Context& context, Report& report) {
+  const Inertias inertias = stated_inertias(context);
+  if (std::any_of(inertias.begin(), inertias.end(),
+                  [](const auto& one) { return one.second[0] > 0; }))
+    return;
+  for (const Asked& asked : context.query.asked) {
+    const AskedQuantity* row = find_asked(asked.quantity);
+    // Mass matrices and forces of what has no mass are zero.
+    if (row == nullptr || !row->dynamic || row->regroups || row->element != Element::kRobot)
+      continue;
+    report.add(fault_in(context.query, asked.origin, asked.quantity,
+                        "it is asked, but nothing of the robot has mass", "state masses of links"));
+  }
+}
 
 Visitor refuse_weightless() {
   return {Where::kNode, {std::string(kIsNotRoot)}, std::string(kBodyOfNode), check, {}};

@@ -58,6 +58,34 @@ TEST_F(OddRobot, WithoutAJointThatMovesHasNothingToAnswer) {
     EXPECT_EQ(stats(fixed, {"--solver", solver, "--floating"}).exit_code, 0) << solver;
 }
 
+TEST_F(OddRobot, WithoutMassHasNoCentreOfItAndNoEnergy) {
+  const std::string massless =
+      "<link name='a'/><link name='b'/>" + joint("ab", "continuous", "a", "b");
+  for (const auto& [solver, asked] :
+       {std::pair{"com", "center-of-mass"}, {"energy", "kinetic-energy"}, {"momentum", "momentum"}})
+    expect_refused(massless, {"--solver", solver},
+                   asked + std::string(": it is asked, but nothing of the robot has mass; state "
+                                       "masses of links"));
+  for (const std::string solver : {"fpk", "rnea", "crba"})
+    EXPECT_EQ(stats(massless, {"--solver", solver}).exit_code, 0) << solver;
+}
+
+TEST_F(OddRobot, WithTwoJointsOnOneAxisAndNothingBetweenHasNoAcceleration) {
+  const std::string content = "<link name='a'/>\n<link name='b'/>\n" + link("c") +
+                              joint("ab", "continuous", "a", "b") +
+                              joint("bc", "continuous", "b", "c");
+  write_file(folder_ / "odd.urdf", "<robot name='odd'>\n" + content + "</robot>\n");
+  for (const std::string command : {"generate", "bench"}) {
+    const Result result = run_sinew(
+        {command, (folder_ / "odd.urdf").string(), "--solver", "aba", "--gravity", "0,0,-9.81"});
+    EXPECT_EQ(result.exit_code, 1) << command;
+    EXPECT_TRUE(std::regex_search(
+        result.err, std::regex("odd.urdf:5: [^ ]*/joint/ab: its 'joint-acceleration-from-force' "
+                               "divides by zero, or overflows, whatever the inputs are; look for")))
+        << result.err;
+  }
+}
+
 TEST_F(OddRobot, OfOneLinkConformsAndFloats) {
   for (const std::string solver : {"rnea", "aba", "crba", "fpk"})
     EXPECT_EQ(stats(link("drone"), {"--solver", solver, "--floating"}).exit_code, 0) << solver;

@@ -242,6 +242,12 @@ TEST(Usage, IsExitCodeTwo) {
   EXPECT_EQ(run_sinew({"generate", "x.jsonld", "--no-such-option"}).exit_code, 2);
 }
 
+TEST(Usage, NumbersThatAreNoneExitWithTwo) {
+  EXPECT_EQ(run_sinew({"generate", "x.urdf", "--snap", "nan"}).exit_code, 2);
+  EXPECT_EQ(run_sinew({"explain", "x.json", "0"}).exit_code, 2);
+  EXPECT_EQ(run_sinew({"explain", "x.json", "-5"}).exit_code, 2);
+}
+
 TEST(Usage, EveryCommandHasHelp) {
   const Result overview = run_sinew({"--help"});
   EXPECT_EQ(overview.exit_code, 0);
