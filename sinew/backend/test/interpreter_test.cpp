@@ -3,32 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <random>
 
+#include "allocations.h"
 #include "serial_chain.h"
 #include "sinew/base/error.h"
 #include "sinew/program/derivatives.h"
-
-// Every allocation of this test program is counted.
-namespace {
-std::size_t allocations = 0;
-}
-
-// Not inlined: GCC would take malloc and delete, or new and free, for a pair that does not match.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-// std::stable_sort asks so.
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace sinew {
 namespace {
@@ -62,10 +42,10 @@ TEST(Interpreter, TakesNoMemoryWhileItEvaluates) {
   backend::Interpreter interpreter(test::inverse_dynamics(test::mixed_chain()));
   const std::vector<double> in = random_inputs(21, 1);
   std::vector<double> out(7);
-  const std::size_t before = allocations;
+  const std::size_t before = allocations();
   for (int k = 0; k < 100; ++k) interpreter.evaluate(in.data(), out.data());
   interpreter.reset();
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(allocations(), before);
 }
 
 TEST(Interpreter, EvaluatesDerivativesWithoutAllocating) {
@@ -78,10 +58,10 @@ TEST(Interpreter, EvaluatesDerivativesWithoutAllocating) {
   backend::Interpreter interpreter(program);
   const std::vector<double> in = random_inputs(interpreter.in_size(), 1);
   std::vector<double> out(interpreter.out_size());
-  const std::size_t before = allocations;
+  const std::size_t before = allocations();
   for (int k = 0; k < 100; ++k) interpreter.evaluate(in.data(), out.data());
   interpreter.reset();
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(allocations(), before);
 }
 
 TEST(Interpreter, RefusesAProgramThatIsNotValid) {

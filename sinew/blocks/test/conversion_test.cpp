@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "refusal.h"
 #include "sinew/blocks/elaborate.h"
 #include "sinew/data/compose.h"
 #include "sinew/data/emit.h"
@@ -16,15 +17,6 @@ namespace {
 using data::ConversionType;
 
 data::Library load(const std::string& text) { return load_library(text, "conversion_test.blocks"); }
-
-std::string message(const std::function<void()>& what) {
-  try {
-    what();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 // Two-argument shorthand for a plain prototype of one domain with free coordinates.
 constexpr const char* kJointSpace = R"(
@@ -73,11 +65,11 @@ TEST(Domain, IsDeclaredByTextAlone) {
 
 TEST(Domain, RefusesToMixMeaningsAndCoordinates) {
   const auto library = load(kJointSpace);
-  EXPECT_NE(message([&] {
+  EXPECT_NE(refusal([&] {
               data::find_plan(library, "controller", "speed");
             }).find("'controller' means JointPosition, 'speed' means JointVelocity"),
             std::string::npos);
-  EXPECT_NE(message([&] {
+  EXPECT_NE(refusal([&] {
               data::find_plan(library, "controller", "encoder");
             }).find("nothing leads from"),
             std::string::npos);
@@ -135,11 +127,11 @@ dproto single :: geometry { semantic = Position coord = cartesian algebraic = po
   dr = { 0=0 1=1 2=2 } units = position_units }
 algebraic plane :: Scalar{r, phi}
 )");
-  EXPECT_NE(message([&] {
+  EXPECT_NE(refusal([&] {
               data::find_plan(library, "exact", "flat");
             }).find("every way loses something: the height Z"),
             std::string::npos);
-  EXPECT_NE(message([&] { data::find_plan(library, "exact", "single"); }).find("float"),
+  EXPECT_NE(refusal([&] { data::find_plan(library, "exact", "single"); }).find("float"),
             std::string::npos);
   EXPECT_NO_THROW(data::find_plan(library, "flat", "exact"));
   EXPECT_NO_THROW(data::find_plan(library, "single", "exact"));
@@ -310,7 +302,7 @@ TEST(Composition, RefusesWhatDoesNotMeanTheSameAndNamesBoth) {
        {"drive", "in", "tool_screw", {"app.blocks", 9, 1}}},
       {{"base", "twist", "screw", {"app.blocks", 3, 1}},
        {"drive", "v", "ros_linear", {"app.blocks", 10, 1}}}};
-  const std::string text = message([&] { data::insert_conversions(library, connections); });
+  const std::string text = refusal([&] { data::insert_conversions(library, connections); });
   EXPECT_NE(text.find("app.blocks:9: drive.in: is connected to base.twist"), std::string::npos)
       << text;
   EXPECT_NE(text.find("'screw'"), std::string::npos);

@@ -7,21 +7,13 @@
 
 #include "allocations.h"
 #include "emitted_code.h"
+#include "refusal.h"
 #include "sinew/blocks/elaborate.h"
 #include "sinew/data/compose.h"
 #include "sinew/data/engine.h"
 
 namespace sinew::blocks {
 namespace {
-
-std::string message(const std::function<void()>& what) {
-  try {
-    what();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 const data::Library& frames() {
   static const data::Library library =
@@ -211,23 +203,23 @@ TEST(Frames, ComposerSaysWhichRelationsAConversionReads) {
 }
 
 TEST(Frames, RefusalsNameWhatIsMissing) {
-  const auto refusal = [](const char* from, const char* to) {
-    return message([&] { data::find_plan(frames(), from, to); });
+  const auto of_plan = [](const char* from, const char* to) {
+    return refusal([&] { data::find_plan(frames(), from, to); });
   };
-  EXPECT_NE(refusal("tool_twist", "camera_twist")
+  EXPECT_NE(of_plan("tool_twist", "camera_twist")
                 .find("it is not known how 'tool' is related to 'camera' (related frames are base, "
                       "gripper, tool); declare relation tool in camera = PROTOTYPE"),
             std::string::npos)
-      << refusal("tool_twist", "camera_twist");
-  EXPECT_NE(refusal("tool_velocity", "base_velocity")
+      << of_plan("tool_twist", "camera_twist");
+  EXPECT_NE(of_plan("tool_velocity", "base_velocity")
                 .find("to change the reference_point of LinearVelocity takes the angular velocity, "
                       "as in a Twist"),
             std::string::npos)
-      << refusal("tool_velocity", "base_velocity");
-  EXPECT_NE(refusal("unrelated_pose", "object_in_base")
+      << of_plan("tool_velocity", "base_velocity");
+  EXPECT_NE(of_plan("unrelated_pose", "object_in_base")
                 .find("of no stated convention, that of 'object_in_base' with_respect_to=base"),
             std::string::npos)
-      << refusal("unrelated_pose", "object_in_base");
+      << of_plan("unrelated_pose", "object_in_base");
 }
 
 }  // namespace

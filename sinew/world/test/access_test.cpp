@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "allocations.h"
+#include "seen_part.h"
 #include "sinew/graph/property_graph.h"
 #include "sinew/model/load.h"
 #include "sinew/rdf/sparql/engine.h"
@@ -14,35 +15,17 @@
 namespace sinew::world {
 namespace {
 
-const std::string kTask = "http://x/task", kCamera = "http://x/camera", kOther = "http://x/other";
-const std::string kSeen = "http://x/seen", kNotes = "http://x/notes";
+const std::string kNotes = "http://x/notes";
 
-Stamp at_s(int seconds) { return Stamp(std::chrono::seconds(seconds)); }
-
-// base -(constant)-> table -(seen by the camera, for the task)-> part
-struct Cell {
-  Cell() {
-    base = world.add_frame("http://x/base");
-    table = world.add_frame("http://x/table");
-    part = world.add_frame("http://x/part");
-    world.add_static("http://x/standing", table, base, {{}, {0, 0, 1}}, "http://x/me");
-    lying = world.add_relation({.name = "http://x/lying", .of = part, .with_respect_to = table});
-    seen = world.add_measurement({.name = kSeen,
-                                  .relation = lying,
-                                  .model = {.provenance = kCamera, .used_by = {kTask}},
-                                  .keep_all = true});
+// With a bolt on the part, and something said of both in the world's graph.
+struct Cell : SeenPart {
+  Cell() : SeenPart({kTask}) {
     bolt = world.add_object("http://x/bolt", part);
-    world.write(seen, at_s(1), Pose{{}, {1, 0, 0}}, {kCamera});
     graph::Terms& terms = world.graph().terms();
     world.graph().add({terms.iri("http://x/bolt"), terms.iri("http://x/price"),
                        terms.literal("high"), terms.iri(kNotes)});
     world.graph().add({terms.iri(kSeen), terms.iri("http://x/quality"), terms.literal("poor"), {}});
   }
-  PoseQuery query() const { return {.of = part, .with_respect_to = base}; }
-  World world;
-  FrameId base, table, part;
-  RelationId lying;
-  MeasurementId seen;
   ObjectId bolt;
   std::shared_ptr<Audit> audit = std::make_shared<Audit>();
 };

@@ -11,6 +11,7 @@
 #include "sinew/world/declared_actions.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/situation_rules.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
@@ -18,8 +19,6 @@ namespace {
 const std::string kPrefixes = "PREFIX x: <http://x/> PREFIX w: <https://w3id.org/sinew/world#>\n";
 const std::string kPick = "http://x/pick", kPlace = "http://x/place";
 const std::string kPart = "http://x/part", kTable = "http://x/table";
-
-Stamp at_s(int seconds) { return Stamp(std::chrono::seconds(seconds)); }
 
 // The gripper takes a part from where it lies: not empty afterwards, and the part is in it.
 const ActionModel kPicking{

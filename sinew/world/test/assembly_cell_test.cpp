@@ -10,13 +10,12 @@
 #include "sinew/world/robot.h"
 #include "sinew/world/scene.h"
 #include "sinew/world/world.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
 
 const std::string kCell = "https://w3id.org/sinew/examples/assembly_cell#";
-
-Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
 
 struct CellWorld {
   explicit CellWorld(std::vector<std::string> files) {

@@ -8,11 +8,10 @@
 #include "sinew/base/error.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/world.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
-
-Stamp at_s(int seconds) { return Stamp(std::chrono::seconds(seconds)); }
 
 struct Tree {
   explicit Tree(std::mt19937_64& random) {

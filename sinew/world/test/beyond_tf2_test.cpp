@@ -14,12 +14,11 @@
 #include "sinew/world/world.h"
 #ifdef SINEW_HAVE_TF2
 #include "tf2_buffer.h"
+#include "times_and_places.h"
 #endif
 
 namespace sinew::world {
 namespace {
-
-Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
 
 #ifdef SINEW_HAVE_TF2
 Tf2Numbers numbers(const Pose& X) { return {X.q.x, X.q.y, X.q.z, X.q.w, X.p.x, X.p.y, X.p.z}; }

@@ -6,11 +6,11 @@
 #include "random_poses.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/world.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
 
-Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
 Pose at_x(double x) { return {{}, {x, 0, 0}}; }
 
 struct Scene {

@@ -9,6 +9,7 @@
 #include "sinew/world/qualitative_facts.h"
 #include "sinew/world/situation_rules.h"
 #include "sinew/world/space.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 const std::string kTask = "http://x/task", kCamera = "http://x/camera", kOther = "http://x/other";
 const std::string kSeen = "http://x/seen";
 
-Stamp at_s(int seconds) { return Stamp(std::chrono::seconds(seconds)); }
 std::vector<Shape> box(double x, double y, double z) { return {{Box{{x, y, z}}, {}}}; }
 
 // A cup that a camera sees on the table, for the task alone; a lamp that stands there for

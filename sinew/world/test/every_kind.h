@@ -11,10 +11,9 @@
 #include "sinew/world/block_set.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/world.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
-
-inline Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
 
 inline const std::string kBlockLibrary = std::string(kCanonicalPrototypes);
 

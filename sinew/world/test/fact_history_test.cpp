@@ -10,11 +10,10 @@
 #include "sinew/rdf/sparql/engine.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/world.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
-
-Stamp at_s(int seconds) { return Stamp(std::chrono::seconds(seconds)); }
 
 struct Facts {
   graph::Id iri(const std::string& name) { return store.terms().iri("http://x/" + name); }

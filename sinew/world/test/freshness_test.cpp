@@ -10,11 +10,10 @@
 #include "sinew/world/edit.h"
 #include "sinew/world/reading.h"
 #include "sinew/world/world.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
-
-Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
 
 struct Seen {
   explicit Seen(MeasurementModel model = {

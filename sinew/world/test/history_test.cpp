@@ -4,11 +4,10 @@
 #include "random_poses.h"
 #include "sinew/graph/store.h"
 #include "sinew/world/edit.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
-
-Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
 
 struct Kept {
   World world;

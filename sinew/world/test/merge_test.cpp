@@ -6,13 +6,13 @@
 #include "random_poses.h"
 #include "sinew/world/clone.h"
 #include "sinew/world/edit.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
 
 using Kind = Difference::Kind;
 
-Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
 Pose at_x(double x) { return {{}, {x, 0, 0}}; }
 
 struct Cell2 {

@@ -9,24 +9,15 @@
 #include <random>
 
 #include "random_poses.h"
+#include "refusal.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
 
 constexpr WriteContext kCamera{"http://cell/camera"};
 
-Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
-Pose translation(double x, double y, double z) { return {{}, {x, y, z}}; }
 Pose turned(double angle_rad, const Vector3& p) { return {revolute(angle_rad).q, p}; }
-
-std::string message(const std::function<void()>& what) {
-  try {
-    what();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 struct Bench {
   World world;
@@ -149,7 +140,7 @@ TEST(Relations, BetweenAsksForThree) {
   EXPECT_TRUE(holds(middle, b.beside, b.cup));
   EXPECT_FALSE(holds(b.cup, middle, b.beside));
   EXPECT_FALSE(holds(b.lamp, b.cup, b.beside));
-  EXPECT_NE(message([&] {
+  EXPECT_NE(refusal([&] {
               relations.judge({.relation = "between", .first = middle, .second = b.cup});
             }).find("a body too few"),
             std::string::npos);
@@ -161,7 +152,7 @@ TEST(Relations, ReachableIsWithinTheDeclaredReach) {
   b.space.update(at_s(0));
   Relations relations(b.space);
   const Question question = {.relation = "reachable", .first = b.cup, .second = robot};
-  EXPECT_NE(message([&] { relations.judge(question); }).find("no declared 'reach'"),
+  EXPECT_NE(refusal([&] { relations.judge(question); }).find("no declared 'reach'"),
             std::string::npos);
   relations.declare(robot, "reach", 0.57);
   EXPECT_TRUE(relations.judge(question).holds);  // 0.6 m to the cup's axis, 0.04 m its radius
@@ -271,7 +262,7 @@ TEST(Relations, RulesAreDataThatOneMayExchange) {
       relations.judge({.relation = "within-arm-length", .first = b.beside, .second = b.cup}).holds);
   EXPECT_FALSE(
       relations.judge({.relation = "within-arm-length", .first = b.lamp, .second = b.cup}).holds);
-  EXPECT_NE(message([&] {
+  EXPECT_NE(refusal([&] {
               relations.judge({.relation = "on", .first = b.cup, .second = b.table});
             }).find("no relation that a rule is declared for"),
             std::string::npos);
@@ -280,7 +271,7 @@ TEST(Relations, RulesAreDataThatOneMayExchange) {
 TEST(Relations, RefuseRulesThatCannotBeMeasured) {
   Bench b;
   const auto refused = [&](std::vector<Rule> rules) {
-    return message([&] { Relations(b.space, std::move(rules)); });
+    return refusal([&] { Relations(b.space, std::move(rules)); });
   };
   EXPECT_NE(refused({{.name = "on", .conditions = {{"hight-gap", 0, 1}}}})
                 .find("no quantity 'hight-gap'"),

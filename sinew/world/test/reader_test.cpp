@@ -5,6 +5,7 @@
 
 #include "allocations.h"
 #include "refusal.h"
+#include "seen_part.h"
 #include "sinew/graph/store.h"
 #include "sinew/model/load.h"
 #include "sinew/world/declared_rights.h"
@@ -13,30 +14,8 @@
 namespace sinew::world {
 namespace {
 
-const std::string kTask = "http://x/task", kCamera = "http://x/camera", kOther = "http://x/other";
-
-Stamp at_s(int seconds) { return Stamp(std::chrono::seconds(seconds)); }
-
-// base -(constant)-> table -(seen, for the task)-> part
-struct Cell {
-  Cell() {
-    base = world.add_frame("http://x/base");
-    table = world.add_frame("http://x/table");
-    part = world.add_frame("http://x/part");
-    world.add_static("http://x/standing", table, base, {{}, {0, 0, 1}}, "http://x/me");
-    lying = world.add_relation({.name = "http://x/lying", .of = part, .with_respect_to = table});
-    seen = world.add_measurement(
-        {.name = "http://x/seen",
-         .relation = lying,
-         .model = {.provenance = kCamera, .used_by = {kTask, "http://x/planner"}},
-         .keep_all = true});
-    world.write(seen, at_s(1), Pose{{}, {1, 0, 0}}, {kCamera});
-  }
-  PoseQuery query() const { return {.of = part, .with_respect_to = base}; }
-  World world;
-  FrameId base, table, part;
-  RelationId lying;
-  MeasurementId seen;
+struct Cell : SeenPart {
+  Cell() : SeenPart({kTask, "http://x/planner"}) {}
 };
 
 TEST(Reader, OnlyDeclaredUsersGetAnAnswer) {

@@ -12,6 +12,7 @@
 #include "sinew/world/declared_rights.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/scene.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
@@ -19,8 +20,6 @@ namespace {
 const std::string kCell = "https://w3id.org/sinew/examples/assembly_cell#";
 const std::string kCamera = kCell + "camera-device", kController = kCell + "robot-controller";
 const std::string kTask = kCell + "task-controller";
-
-Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

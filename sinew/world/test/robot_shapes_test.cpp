@@ -9,11 +9,10 @@
 #include "sinew/model/urdf.h"
 #include "sinew/world/robot.h"
 #include "sinew/world/space.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
-
-Stamp at_s(int seconds) { return Stamp(std::chrono::seconds(seconds)); }
 
 const char* const kRobot = R"(<robot name="arm">
  <link name="base"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>

@@ -18,11 +18,10 @@
 #include "sinew/world/edit.h"
 #include "sinew/world/query_program.h"
 #include "sinew/world/world.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
-
-Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
 
 struct Gen3 {
   Gen3() {

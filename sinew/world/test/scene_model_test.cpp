@@ -14,13 +14,12 @@
 #include "sinew/rdf/turtle/writer.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/scene.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
-
 struct LoadedScene {
   explicit LoadedScene(const model::Source& source) {
     model::load({&source, 1}, {}, store, places, report);

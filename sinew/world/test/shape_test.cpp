@@ -11,6 +11,7 @@
 
 #include "random_poses.h"
 #include "random_shapes.h"
+#include "refusal.h"
 #include "sinew/base/error.h"
 
 namespace sinew::world {
@@ -50,15 +51,6 @@ double largest_gap(const Shape& a, const Shape& b) {
     largest = std::max(largest, apart - half_width(a, d) - half_width(b, d));
   }
   return largest;
-}
-
-std::string message(const std::function<void()>& what) {
-  try {
-    what();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(Shape, BoxesTouchExactlyWhereNoAxisSeparatesThem) {
@@ -173,7 +165,7 @@ TEST(Shape, BoundsOfAMeshAreThoseOfItsVertices) {
   const MeshBounds mesh = mesh_bounds(vertices);
   EXPECT_EQ(mesh.minimum.y, -2);
   EXPECT_EQ(mesh.maximum.z, 3);
-  EXPECT_NE(message([] { mesh_bounds({}); }).find("without vertices"), std::string::npos);
+  EXPECT_NE(refusal([] { mesh_bounds({}); }).find("without vertices"), std::string::npos);
 }
 
 TEST(Shape, RefusesWhatIsNoConvexBody) {
@@ -192,7 +184,7 @@ TEST(Shape, RefusesWhatIsNoConvexBody) {
     EXPECT_THROW(check_shape(geometry, "http://cell/thing"), Error) << geometry.index();
   }
   EXPECT_NO_THROW(check_shape(Polygon{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, 0, 1}, "x"));
-  EXPECT_NE(message([&] {
+  EXPECT_NE(refusal([&] {
               check_shape(wrong[6], "http://cell/magazine");
             }).find("not convex and anticlockwise at corner 2"),
             std::string::npos);

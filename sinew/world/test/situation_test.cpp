@@ -10,13 +10,12 @@
 #include "sinew/rdf/sparql/engine.h"
 #include "sinew/world/action_effects.h"
 #include "sinew/world/edit.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
 
 const std::string kPrefixes = "PREFIX x: <http://x/> PREFIX w: <https://w3id.org/sinew/world#>\n";
-
-Stamp at_s(int seconds) { return Stamp(std::chrono::seconds(seconds)); }
 
 // A gripper one metre above the table; a bolt lies on the table, or hangs on the gripper.
 struct Workshop {

@@ -9,6 +9,7 @@
 
 #include "random_shapes.h"
 #include "sinew/world/edit.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 constexpr WriteContext kCamera{"http://cell/camera"};
 constexpr WriteContext kConfiguration{"http://cell/configuration"};
 
-Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
-Pose translation(double x, double y, double z) { return {{}, {x, y, z}}; }
 std::vector<Shape> cube(double size) { return {{Box{{size, size, size}}, {}}}; }
 
 // A cell with a shelf on which there is a storage magazine, and parts that a camera sees.

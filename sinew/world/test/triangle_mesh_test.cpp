@@ -14,6 +14,7 @@
 #include "sinew/world/convex_distance.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/space.h"
+#include "times_and_places.h"
 
 #ifdef SINEW_HAVE_FCL
 #include <fcl/geometry/bvh/BVH_model.h>
@@ -26,8 +27,6 @@
 
 namespace sinew::world {
 namespace {
-
-Stamp at_s(int seconds) { return Stamp(std::chrono::seconds(seconds)); }
 
 Vector3 in(const Shape& shape, const Vector3& point) {
   return compose(invert(shape.placement), {{}, point}).p;

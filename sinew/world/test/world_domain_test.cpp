@@ -15,11 +15,10 @@
 #include "sinew/world/edit.h"
 #include "sinew/world/fact_history.h"
 #include "sinew/world/world.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
-
-Stamp at_s(int seconds) { return Stamp(std::chrono::seconds(seconds)); }
 
 std::vector<std::string> faults(World& world) {
   Report report;

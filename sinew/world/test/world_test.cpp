@@ -7,27 +7,16 @@
 #include <random>
 
 #include "random_poses.h"
+#include "refusal.h"
 #include "sinew/graph/store.h"
 #include "sinew/world/edit.h"
+#include "times_and_places.h"
 
 namespace sinew::world {
 namespace {
 
 constexpr WriteContext kCamera{"http://cell/camera"};
 constexpr WriteContext kConfiguration{"http://cell/configuration"};
-
-Stamp at_s(double seconds) { return Stamp(duration_of_seconds(seconds)); }
-
-Pose translation(double x, double y, double z) { return {{}, {x, y, z}}; }
-
-std::string message(const std::function<void()>& what) {
-  try {
-    what();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 // A table, a camera over it, and a part that the camera sees.
 struct Scene {
@@ -332,22 +321,22 @@ TEST(Structure, AnEditIsWholeOrNothing) {
 
 TEST(Structure, FaultsAreNamed) {
   Scene s;
-  EXPECT_NE(message([&] {
+  EXPECT_NE(refusal([&] {
               s.world.add_frame("http://cell/table");
             }).find("http://cell/table: there is a frame of this name"),
             std::string::npos);
-  EXPECT_NE(message([&] {
+  EXPECT_NE(refusal([&] {
               s.world.add_relation(
                   {.name = "http://cell/self", .of = s.table, .with_respect_to = s.table});
             }).find("with itself"),
             std::string::npos);
-  EXPECT_NE(message([&] {
+  EXPECT_NE(refusal([&] {
               s.world.add_measurement({.name = "http://cell/q",
                                        .relation = s.seen_pose,
                                        .quantity = Quantity::kJointPosition});
             }).find("cannot measure"),
             std::string::npos);
-  EXPECT_NE(message([&] {
+  EXPECT_NE(refusal([&] {
               s.world.write(s.seen, at_s(0), std::vector<double>{1}, kCamera);
             }).find("1 numbers for a pose"),
             std::string::npos);
@@ -363,11 +352,11 @@ TEST(Guard, RefusesWritesByProvenance) {
     return "written by " + std::string(who) + ", declared to come from " + model.provenance;
   });
   EXPECT_EQ(s.world.write(s.seen, at_s(0), Pose{}, kCamera), Status::kOk);
-  EXPECT_NE(message([&] {
+  EXPECT_NE(refusal([&] {
               s.world.write(s.seen, at_s(1), Pose{}, kConfiguration);
             }).find("http://cell/seen: written by http://cell/configuration"),
             std::string::npos);
-  EXPECT_NE(message([&] { s.world.claim(s.seen, kConfiguration); }).find("declared to come from"),
+  EXPECT_NE(refusal([&] { s.world.claim(s.seen, kConfiguration); }).find("declared to come from"),
             std::string::npos);
 }
 
@@ -414,12 +403,12 @@ TEST(Attach, DetachesToAFrameThatItHadNoRelationTo) {
   s.world.add_static("http://cell/shelf-pose", shelf, s.table, translation(2, 0, 0), "x");
   s.world.write(s.seen, at_s(1), Pose{}, kCamera);
   s.world.attach(s.part, s.table, at_s(1), "x");
-  EXPECT_NE(message([&] { s.world.attach(s.table, s.part, at_s(1), "x"); }).find("carries"),
+  EXPECT_NE(refusal([&] { s.world.attach(s.table, s.part, at_s(1), "x"); }).find("carries"),
             std::string::npos);
   const RelationId left = s.world.detach(s.part, shelf, at_s(2), "x");
   EXPECT_EQ(s.world.name(left), "http://cell/part/left-at/shelf");
   EXPECT_NEAR(s.world.pose(s.part, shelf, at_s(2)).pose.p.x, -2, 1e-15);
-  EXPECT_NE(message([&] { s.world.detach(s.part, s.table, at_s(2), "x"); }).find("not attached"),
+  EXPECT_NE(refusal([&] { s.world.detach(s.part, s.table, at_s(2), "x"); }).find("not attached"),
             std::string::npos);
 }
 

@@ -2,35 +2,9 @@
 // its dictionary has not grown.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
+#include "allocations.h"
 #include "sinew/graph/store.h"
 #include "sinew/rdf/sparql/prepared.h"
-
-namespace {
-
-std::size_t allocations = 0;
-
-void* counted(std::size_t size) {
-  ++allocations;
-  void* const memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new[](std::size_t size) { return counted(size); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace sinew::rdf::sparql {
 namespace {
@@ -66,13 +40,13 @@ TEST_P(Allocation, IsNoneOnceTheQueryHasRun) {
     }
   };
   run();
-  const std::size_t before = allocations;
+  const std::size_t before = allocations();
   run();
-  EXPECT_EQ(allocations - before, 0u);
+  EXPECT_EQ(allocations() - before, 0u);
   store.remove({nodes[50], p, nodes[51]});
-  const std::size_t after_change = allocations;
+  const std::size_t after_change = allocations();
   run();
-  EXPECT_EQ(allocations - after_change, 0u);
+  EXPECT_EQ(allocations() - after_change, 0u);
   EXPECT_GT(rows, 0u);
 }
 

@@ -5,17 +5,17 @@
 
 #include "sinew/base/error.h"
 
-namespace sinew::world {
+namespace sinew {
 
-// "none" where it throws nothing.
+// All problems, one a line; "none" where it throws nothing.
 template <typename Call>
 std::string refusal(Call&& call) {
   try {
     call();
   } catch (const Error& error) {
-    return to_string(error.problems().front());
+    return error.what();
   }
   return "none";
 }
 
-}  // namespace sinew::world
+}  // namespace sinew

@@ -1,4 +1,4 @@
-// How often this executable has asked for memory with new.
+// How often the calling thread has asked for memory with new.
 #pragma once
 
 #include <cstddef>
