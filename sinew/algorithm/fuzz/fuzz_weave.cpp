@@ -5,43 +5,14 @@
 #include <cstdlib>
 #include <string>
 
-#include "sinew/algorithm/builder.h"
 #include "sinew/algorithm/read.h"
+#include "sinew/algorithm/test/composition.h"
 #include "sinew/algorithm/weave.h"
 #include "sinew/base/error.h"
 
 namespace {
 
 using namespace sinew;
-
-// Composes X_AB and X_BD to X_AD.
-struct Composition {
-  graph::Store store;
-  graph::Id algorithm = iri("algorithm");
-
-  Composition() {
-    graph::Transaction transaction = store.begin();
-    algorithm::Builder builder(store, transaction, algorithm);
-    const graph::Id A = iri("A"), B = iri("B"), D = iri("D");
-    const auto in = [&](const char* slot, graph::Id of, graph::Id wrt) {
-      return builder.block({.slot = slot,
-                            .represents = of,
-                            .quantity = "pose",
-                            .of = of,
-                            .wrt = wrt,
-                            .role = algorithm::Role::kInput});
-    };
-    const auto out =
-        builder.block({.slot = "X_AD", .represents = D, .quantity = "pose", .of = D, .wrt = A});
-    builder.closure("compose-pose", {in("X_AB", B, A), in("X_BD", D, B), out}, {});
-    builder.output(out);
-    builder.finish();
-    transaction.commit();
-  }
-  graph::Id iri(const std::string& name) {
-    return store.terms().iri("https://example.org/" + name);
-  }
-};
 
 // Prefixes of what an update speaks of, so that mutations need not invent them.
 constexpr const char* kPrefixes =
@@ -54,7 +25,7 @@ constexpr const char* kPrefixes =
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  Composition composition;
+  algorithm::Composition composition;
   const std::size_t before = composition.store.view().size();
   const std::string text(reinterpret_cast<const char*>(data), size);
   bool woven = false;

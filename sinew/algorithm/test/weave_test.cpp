@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sinew/algorithm/builder.h"
+#include "composition.h"
 #include "sinew/algorithm/read.h"
 
 namespace sinew::algorithm {
@@ -23,36 +23,16 @@ PREFIX qudt: <http://qudt.org/schema/qudt/>
 PREFIX ex: <https://example.org/>
 )";
 
-// Composes X_AB and X_BD to X_AD.
 class WeaveTest : public testing::Test {
  protected:
-  void SetUp() override {
-    graph::Transaction transaction = store_.begin();
-    Builder builder(store_, transaction, algorithm_);
-    const Id A = iri("A"), B = iri("B"), D = iri("D");
-    const auto in = [&](std::string_view slot, Id of, Id wrt) {
-      return builder.block({.slot = slot,
-                            .represents = of,
-                            .quantity = "pose",
-                            .of = of,
-                            .wrt = wrt,
-                            .role = Role::kInput});
-    };
-    const auto out =
-        builder.block({.slot = "X_AD", .represents = D, .quantity = "pose", .of = D, .wrt = A});
-    builder.closure("compose-pose", {in("X_AB", B, A), in("X_BD", D, B), out}, {});
-    builder.output(out);
-    builder.finish();
-    transaction.commit();
-  }
-
-  Id iri(const std::string& name) { return store_.terms().iri("https://example.org/" + name); }
+  Id iri(const std::string& name) { return composition_.iri(name); }
   WeaveCounts weave_text(const std::string& update) {
     return weave(store_, algorithm_, kPrefixes + update, "update.rq");
   }
 
-  graph::Store store_;
-  Id algorithm_ = iri("algorithm");
+  Composition composition_;
+  graph::Store& store_ = composition_.store;
+  Id algorithm_ = composition_.algorithm;
 };
 
 // Splices a closure in after the last one of the schedule, as listing 8 of the published
