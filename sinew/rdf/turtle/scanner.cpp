@@ -4,7 +4,6 @@
 
 #include "sinew/rdf/iri/characters.h"
 #include "sinew/rdf/iri/iri.h"
-#include "sinew/rdf/turtle/byte_class.h"
 #include "sinew/rdf/turtle/limits.h"
 
 namespace sinew::rdf {
@@ -152,18 +151,22 @@ void Scanner::skip_space() {
   }
 }
 
+void Scanner::skip_to(const ByteClass& ends) {
+  unsigned char seen = 0;
+  const std::size_t begin = offset_;
+  while (!at_end() && !in(ends, text_[offset_])) {
+    seen |= static_cast<unsigned char>(text_[offset_++]);
+  }
+  if (seen >= 0x80) count_characters(begin);
+}
+
 std::string_view Scanner::iri_reference() {
   const Position start = position();
   ++offset_;
   std::size_t begin = offset_;
   bool escaped = false;
   while (true) {
-    unsigned char seen = 0;
-    const std::size_t run = offset_;
-    while (!at_end() && !in(kEndsIriRun, text_[offset_])) {
-      seen |= static_cast<unsigned char>(text_[offset_++]);
-    }
-    if (seen >= 0x80) count_characters(run);
+    skip_to(kEndsIriRun);
     if (accept('>')) break;
     if (peek() != '\\' || at_end()) {
       if (at_end()) fail(start, "an IRI does not end", "close it with >");

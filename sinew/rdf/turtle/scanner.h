@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "sinew/base/error.h"
+#include "sinew/rdf/turtle/byte_class.h"
 
 namespace sinew::rdf {
 
@@ -77,6 +78,9 @@ class Scanner {
   std::string describe_next() const;
 
  private:
+  // Passes over what can be taken over as it is, to the next character of `ends` or the end of the
+  // text. No end of a line may be passed over.
+  void skip_to(const ByteClass& ends);
   // Counts lines and characters of what lies between `begin` and the present place.
   void count_characters(std::size_t begin);
   void count_line_end();  // at '\n' or '\r', which it passes over

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "sinew/rdf/iri/characters.h"
-#include "sinew/rdf/turtle/byte_class.h"
 #include "sinew/rdf/turtle/scanner.h"
 
 namespace sinew::rdf {
@@ -78,12 +77,7 @@ std::string_view Scanner::short_string(char quote) {
   std::size_t begin = offset_;
   bool escaped = false;
   while (true) {
-    unsigned char seen = 0;
-    const std::size_t run = offset_;
-    while (!at_end() && !in(kEndsStringRun, text_[offset_])) {
-      seen |= static_cast<unsigned char>(text_[offset_++]);
-    }
-    if (seen >= 0x80) count_characters(run);
+    skip_to(kEndsStringRun);
     if (at_end()) fail(start, "a string does not end", fmt::format("close it with {}", quote));
     const char c = text_[offset_];
     if (c == quote) break;
