@@ -220,7 +220,7 @@ void set_points_of(Host& host, const Application& application, const LiveOptions
           found = true;
         }
     if (!found)
-      fail("there is no set-point '" + name + "'",
+      fail("there is no set point '" + name + "'",
            known.empty() ? "nothing is to be set" : "set " + known);
   }
 }

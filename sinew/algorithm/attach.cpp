@@ -15,7 +15,7 @@ using graph::Id;
 
 constexpr std::array<std::string_view, 4> kMeasured = {"joint-position", "joint-velocity",
                                                        "floating-position", "floating-velocity"};
-// What a joint does, not what it should do: set-points have slots of other names.
+// What a joint does, not what it should do: set points have slots of other names.
 constexpr std::array<std::string_view, 2> kMeasuredSlots = {"position", "velocity"};
 constexpr std::string_view kCommanded = "joint-force";
 

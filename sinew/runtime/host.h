@@ -9,7 +9,7 @@
 // gets its declared safe command, until stop and reset. Guards say why a host may not start.
 //
 // Everything below `start` is for one supervising thread. The loop's thread allocates nothing and
-// takes no lock: set-points and new programs reach it through a ring, events and old programs leave
+// takes no lock: set points and new programs reach it through a ring, events and old programs leave
 // it through others.
 #pragma once
 
@@ -107,7 +107,7 @@ class Host final : private EventSink {
   void step(std::uint64_t cycles = 1);
 
   // --- while running, or before ---
-  // Gives a set-point its value, from the next cycle on. Throws Error: no such set-point, another
+  // Gives a set point its value, from the next cycle on. Throws Error: no such set point, another
   // size, or too many at once.
   void set(const std::string& task, const std::string& block, std::span<const double> values);
   // An event of which something is declared (Reaction), from the next cycle on. Throws Error: no
@@ -138,7 +138,7 @@ class Host final : private EventSink {
     TaskOptions options;
     std::unique_ptr<Executable> executable;  // the loop's
     const Executable* latest = nullptr;      // that runs once all commands have been carried out
-    std::vector<bool> given;                 // by block of `latest`: a set-point with a value
+    std::vector<bool> given;                 // by block of `latest`: a set point with a value
     std::vector<Watcher> watchers;           // the loop's
     bool halted = false;                     // the loop's
   };

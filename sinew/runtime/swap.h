@@ -34,14 +34,14 @@ struct StateConversion {
 struct SwapRules {
   std::vector<StateConversion> conversions;
   std::vector<std::string> initialise;  // states, by IRI or name
-  // Values of set-points that the old program does not have, by IRI or name.
+  // Values of set points that the old program does not have, by IRI or name.
   std::vector<std::pair<std::string, std::vector<double>>> set_points;
 };
 
 // Names of the blocks of the new program.
 struct SwapReport {
   std::vector<std::string> carried, converted, initialised;  // states
-  std::vector<std::string> kept, set;                        // set-points
+  std::vector<std::string> kept, set;                        // set points
 };
 
 // How a swap went, told by the loop.
@@ -62,10 +62,10 @@ struct StateCopy {
 struct StatePlan {
   SwapReport report;
   std::vector<StateCopy> copies;
-  std::vector<bool> given;  // by block of the new program: a set-point that has a value
+  std::vector<bool> given;  // by block of the new program: a set point that has a value
 };
 
-// Throws Error when a rule names what is not there. `given`: the old program's set-points that have
+// Throws Error when a rule names what is not there. `given`: the old program's set points that have
 // a value. Writes those of the rules into the new program.
 StatePlan plan_states(const Executable& old, const std::vector<bool>& given, Executable& next,
                       const SwapRules& rules);

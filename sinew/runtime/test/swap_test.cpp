@@ -120,7 +120,7 @@ TEST_F(SwapTest, InitialisesAStateWhenTheCallerSaysSo) {
   const auto before = model(2.0), after = model(100.0, true);  // newtons, not newton metres
   const auto h = host(*before);
   h->step();
-  // The set-point has another prototype as well, so nothing gives it a value.
+  // The set point has another prototype as well, so nothing gives it a value.
   EXPECT_THROW(h->swap("main", executable(*after)), Error);
   h->step();
   EXPECT_EQ(robot_->command_, 5.0) << "the old program goes on";
