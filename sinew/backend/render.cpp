@@ -21,6 +21,8 @@ struct Tag {
   std::size_t begin = 0, end = 0;  // in the template
 };
 
+constexpr int kDeepestSections = 64;
+
 // Writes while it reads: templates are short, and each is filled once in a process.
 class Renderer {
  public:
@@ -129,7 +131,11 @@ class Renderer {
 
   std::size_t once(const Tag& begin) {
     has_section_ = true;
+    if (++depth_ > kDeepestSections)
+      malformed("sections stand in each other more than " + std::to_string(kDeepestSections) +
+                " deep");
     const Tag end = fill(begin.end);
+    --depth_;
     check_end(begin, end);
     has_section_ = true;  // of the line on which it ends
     return end.end;
@@ -142,19 +148,19 @@ class Renderer {
 
   // The place behind a section that is left out.
   std::size_t behind(const Tag& begin) const {
+    std::vector<Tag> open = {begin};
     std::size_t from = begin.end;
-    for (;;) {
+    while (!open.empty()) {
       const Tag tag = next_tag(from);
       if (tag.kind == Tag::Kind::kSection || tag.kind == Tag::Kind::kInverted) {
-        from = behind(tag);
-        continue;
-      }
-      if (tag.kind == Tag::Kind::kNone || tag.kind == Tag::Kind::kEnd) {
-        check_end(begin, tag);
-        return tag.end;
+        open.push_back(tag);
+      } else if (tag.kind == Tag::Kind::kNone || tag.kind == Tag::Kind::kEnd) {
+        check_end(open.back(), tag);
+        open.pop_back();
       }
       from = tag.end;
     }
+    return from;
   }
 
   // The innermost of this name.
@@ -171,6 +177,7 @@ class Renderer {
   std::string result_;
   std::size_t line_ = 0;      // where the current one begins in the result
   bool has_section_ = false;  // the current line
+  int depth_ = 0;             // of the section that is filled in
 };
 
 }  // namespace

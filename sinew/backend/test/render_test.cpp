@@ -56,5 +56,17 @@ TEST(Render, RefusesMalformedTemplates) {
     EXPECT_THROW(filled(text, fields), Error) << text;
 }
 
+TEST(Render, RefusesSectionsThatStandTooDeepInEachOther) {
+  Fields fields;
+  fields.section("a", true);
+  const auto nested = [](int depth) {
+    std::string text = "x";
+    for (int k = 0; k < depth; ++k) text = "{{#a}}" + text + "{{/a}}";
+    return text;
+  };
+  EXPECT_EQ(filled(nested(64), fields), "x");
+  EXPECT_THROW(filled(nested(65), fields), Error);
+}
+
 }  // namespace
 }  // namespace sinew::backend
