@@ -127,7 +127,7 @@ int main(int argc, char** argv) {
   };
   std::vector<Subject> subjects;
   for (const test::Robot& robot : test::published_robots()) {
-    if (robot.name == "clean/gen3.urdf" || robot.name == "baxter.urdf")
+    if (robot.name.starts_with("clean/") || robot.name == "baxter.urdf")
       subjects.push_back({robot, false});
     if (robot.name == "clean/hyq.urdf") subjects.push_back({robot, true});
   }
