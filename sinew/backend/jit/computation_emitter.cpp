@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "sinew/backend/jit/packed_sines.h"
+#include "sinew/backend/jit/sincos.h"
 #include "sinew/program/dag/evaluate.h"
 
 namespace sinew::backend {
@@ -20,13 +20,13 @@ bool is_trigonometric(Op op) { return op == Op::kSin || op == Op::kCos; }
 }  // namespace
 
 ComputationEmitter::ComputationEmitter(const Computation& computation, const Place& place,
-                                       LLVMTypeRef type, Load load)
+                                       LLVMTypeRef type, Fetch fetch)
     : computation_(computation),
       dag_(computation.dag),
       builder_(place.builder),
       function_(place.function),
       repair_(place.repair),
-      load_(std::move(load)),
+      fetch_(std::move(fetch)),
       ir_(place.builder, type, place.fuse),
       fuse_(place.fuse),
       live_(program::live_nodes(computation)),
@@ -34,6 +34,7 @@ ComputationEmitter::ComputationEmitter(const Computation& computation, const Pla
       values_(dag_.size(), nullptr),
       sine_(dag_.size(), nullptr),
       cosine_(dag_.size(), nullptr),
+      fetched_(dag_.size(), false),
       fused_(dag_.size(), false) {
   count_uses();
 }
@@ -55,19 +56,38 @@ void ComputationEmitter::set_sine(std::uint32_t angle, LLVMValueRef sine, LLVMVa
   cosine_[angle] = ir_.from_double(cosine);
 }
 
-std::vector<LLVMValueRef> ComputationEmitter::emit(const Computed& computed) {
-  emit_sines_of_inputs();
+std::vector<std::uint32_t> ComputationEmitter::order() const {
   std::vector<std::uint32_t> order = computation_.order;
   if (order.empty()) {
     order.resize(dag_.size());
     std::iota(order.begin(), order.end(), 0u);
   }
-  for (const std::uint32_t index : order) {
-    if (live_[index] && !is_fused(index)) computed(index, value(index));
+  std::erase_if(order, [&](std::uint32_t node) { return !live_[node]; });
+  return order;
+}
+
+bool ComputationEmitter::is_statement(std::uint32_t node) const {
+  const Op op = dag_.node(node).op;
+  return live_[node] && !fused_[node] && op != Op::kLess && !is_fetched(node);
+}
+
+bool ComputationEmitter::is_fetched(std::uint32_t node) const {
+  const Node& of = dag_.node(node);
+  return program::arity(of.op) == 0 || (is_trigonometric(of.op) && fetched_[of.a.node()]);
+}
+
+void ComputationEmitter::for_each_operand(
+    std::uint32_t node, const std::function<void(std::uint32_t operand)>& visit) const {
+  const Node& of = dag_.node(node);
+  const Ref operands[] = {of.a, of.b, of.c};
+  for (int k = 0; k < program::arity(of.op); ++k) {
+    const std::uint32_t operand = operands[k].node();
+    if (is_statement(operand) || is_fetched(operand)) {
+      visit(operand);
+    } else {
+      for_each_operand(operand, visit);
+    }
   }
-  std::vector<LLVMValueRef> results;
-  for (const Ref result : computation_.results) results.push_back(signed_value(result));
-  return results;
 }
 
 void ComputationEmitter::count_uses() {
@@ -86,43 +106,18 @@ void ComputationEmitter::count_uses() {
   }
 }
 
-void ComputationEmitter::emit_sines_of_inputs() {
-  std::vector<std::uint32_t> nodes = angles_that_are_inputs();
-  std::erase_if(nodes, [this](std::uint32_t node) { return sine_[node] != nullptr; });
-  if (nodes.empty()) return;
-  if (ir_.lanes() >= kSineLanes) {
-    std::vector<LLVMValueRef> angles;
-    for (const std::uint32_t node : nodes) angles.push_back(ir_.to_double(value(node)));
-    const SincosValues values = emit_sincos(builder_, function_, repair_, angles, fuse_);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      set_sine(nodes[i], values.sine[i], values.cosine[i]);
-    }
-    return;
-  }
-  const unsigned lanes = ir_.lanes();
-  std::vector<LLVMValueRef> numbers;
-  for (const std::uint32_t node : nodes) {
-    for (unsigned lane = 0; lane < lanes; ++lane) {
-      const LLVMValueRef at = LLVMConstInt(LLVMInt64TypeInContext(ir_.context()), lane, false);
-      numbers.push_back(lanes == 1 ? value(node)
-                                   : LLVMBuildExtractElement(builder_, value(node), at, ""));
-    }
-  }
-  const PackedSines sines({builder_, function_, repair_, fuse_}, numbers);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    set_sine(nodes[i], sines.sine(i * lanes, lanes), sines.cosine(i * lanes, lanes));
-  }
-}
-
 LLVMValueRef ComputationEmitter::signed_value(Ref ref) {
   const LLVMValueRef magnitude = value(ref.node());
   return ref.negative() ? ir_.negate(magnitude) : magnitude;
 }
 
-LLVMValueRef ComputationEmitter::value(std::uint32_t index) {
-  LLVMValueRef& kept = values_[index];
-  if (kept == nullptr) kept = compute(index);
-  return kept;
+LLVMValueRef ComputationEmitter::value(std::uint32_t node) {
+  LLVMValueRef& value = values_[node];
+  if (value == nullptr) value = fetch_(node);
+  if (value != nullptr) return value;
+  const LLVMValueRef computed = compute(node);
+  if (is_statement(node)) value = computed;
+  return computed;
 }
 
 bool ComputationEmitter::is_product_of_one_use(Ref ref) const {
@@ -139,7 +134,7 @@ LLVMValueRef ComputationEmitter::compute(std::uint32_t index) {
     case Op::kConstant:
       return ir_.number(node.value);
     case Op::kInput:
-      return load_(node.index);
+      return nullptr;  // always fetched
     case Op::kAdd:
       return sum(node);
     case Op::kMultiply:

@@ -1,12 +1,13 @@
 #include "sinew/backend/jit/emit.h"
 
 #include <cstring>
-#include <optional>
+#include <utility>
 #include <vector>
 
 #include "sinew/backend/jit/computation_emitter.h"
-#include "sinew/backend/jit/constant_results.h"
-#include "sinew/backend/jit/limb_emitter.h"
+#include "sinew/backend/jit/ir.h"
+#include "sinew/backend/jit/sample_emitter.h"
+#include "sinew/backend/jit/sincos.h"
 
 namespace sinew::backend {
 namespace {
@@ -14,41 +15,55 @@ namespace {
 using program::Computation;
 using program::Ref;
 
-// One sample; with a stride, as many as the type has lanes.
-void emit_samples(const Computation& computation, const Place& place, LLVMTypeRef type,
-                  LLVMValueRef stride) {
-  const LLVMTypeRef number = stride != nullptr ? LLVMGetElementType(type) : type;
+// As many samples as the type has lanes.
+void write_block(const Computation& computation, const Place& place, LLVMTypeRef type) {
+  const LLVMTypeRef number = LLVMGetElementType(type);
   const LLVMContextRef context = LLVMGetTypeContext(type);
   const auto address = [&](unsigned parameter, std::size_t index) {
     LLVMValueRef offset = LLVMConstInt(LLVMInt64TypeInContext(context), index, false);
-    if (stride != nullptr) offset = LLVMBuildMul(place.builder, offset, stride, "");
+    offset = LLVMBuildMul(place.builder, offset, LLVMGetParam(place.function, 2), "");
     return LLVMBuildInBoundsGEP2(place.builder, number, LLVMGetParam(place.function, parameter),
                                  &offset, 1, "");
   };
-  const auto load = [&](std::uint32_t input) {
-    const LLVMValueRef value = LLVMBuildLoad2(place.builder, type, address(0, input), "");
+  const auto load = [&](std::uint32_t node) -> LLVMValueRef {
+    if (computation.dag.node(node).op != program::Op::kInput) return nullptr;
+    const LLVMValueRef value =
+        LLVMBuildLoad2(place.builder, type, address(0, computation.dag.node(node).index), "");
     LLVMSetAlignment(value, bytes_of(number));
     return value;
   };
-  std::vector<std::vector<std::uint32_t>> results_of(computation.dag.size());  // of each node
-  std::vector<std::optional<double>> constants(computation.results.size());
-  for (std::uint32_t i = 0; i < computation.results.size(); ++i) {
-    const Ref result = computation.results[i];
-    if (stride == nullptr && computation.dag.is_constant(result)) {
-      constants[i] = computation.dag.constant_value(result);
-    } else {
-      results_of[result.node()].push_back(i);
-    }
+  ComputationEmitter emitter(computation, place, type, load);
+
+  // All angles that are inputs: one evaluation at the start. Angles that are computed get theirs
+  // where they are needed.
+  const Ir ir(place.builder, type, place.fuse);
+  const std::vector<std::uint32_t> nodes = emitter.angles_that_are_inputs();
+  std::vector<LLVMValueRef> angles;
+  for (const std::uint32_t node : nodes) angles.push_back(ir.to_double(emitter.value(node)));
+  const SincosValues values =
+      emit_sincos(place.builder, place.function, place.repair, angles, place.fuse);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    emitter.set_sine(nodes[i], values.sine[i], values.cosine[i]);
   }
-  store_constant_results(place.builder, number, LLVMGetParam(place.function, 1), constants);
-  const auto store = [&](std::uint32_t node, LLVMValueRef value) {
+
+  // Results are written as soon as they are there, so that they need no register to the end.
+  std::vector<std::vector<std::uint32_t>> results_of(computation.dag.size());  // of each node
+  for (std::uint32_t i = 0; i < computation.results.size(); ++i) {
+    results_of[computation.results[i].node()].push_back(i);
+  }
+  const auto write = [&](std::uint32_t node) {
     for (const std::uint32_t i : results_of[node]) {
-      const LLVMValueRef result =
-          computation.results[i].negative() ? LLVMBuildFNeg(place.builder, value, "") : value;
+      const LLVMValueRef result = emitter.signed_value(computation.results[i]);
       LLVMSetAlignment(LLVMBuildStore(place.builder, result, address(1, i)), bytes_of(number));
     }
+    results_of[node].clear();
   };
-  ComputationEmitter(computation, place, type, load).emit(store);
+  for (const std::uint32_t node : emitter.order()) {
+    if (!emitter.is_statement(node)) continue;
+    emitter.value(node);
+    write(node);
+  }
+  for (const Ref result : computation.results) write(result.node());
   LLVMBuildRetVoid(place.builder);
 }
 
@@ -65,41 +80,66 @@ void add_attribute(LLVMValueRef function, unsigned where, const char* name) {
   LLVMAddAttributeAtIndex(function, where, LLVMCreateEnumAttribute(context, kind, 0));
 }
 
-}  // namespace
+// A module that is being written.
+class Module {
+ public:
+  Module(LLVMContextRef context, const CodeSource& source, const EmitOptions& options)
+      : options_(options),
+        module_(LLVMModuleCreateWithNameInContext("sinew", context)),
+        builder_(LLVMCreateBuilderInContext(context)),
+        number_(source.wanted.is_float ? LLVMFloatTypeInContext(context)
+                                       : LLVMDoubleTypeInContext(context)),
+        pointer_(LLVMPointerTypeInContext(context, 0)),
+        size_(LLVMInt64TypeInContext(context)),
+        repair_(declare(module_, kSincosRepairName, {pointer_, pointer_, pointer_, size_})) {}
+  ~Module() { LLVMDisposeBuilder(builder_); }
+  Module(const Module&) = delete;
+  Module& operator=(const Module&) = delete;
 
-LLVMModuleRef emit_module(LLVMContextRef context, const program::Computation& computation,
-                          const program::LimbProgram* limbs, const JitWanted& wanted, bool fuse) {
-  const LLVMModuleRef module = LLVMModuleCreateWithNameInContext("sinew", context);
-  const LLVMTypeRef number =
-      wanted.is_float ? LLVMFloatTypeInContext(context) : LLVMDoubleTypeInContext(context);
-  const LLVMTypeRef pointer = LLVMPointerTypeInContext(context, 0);
-  const LLVMTypeRef size = LLVMInt64TypeInContext(context);
+  LLVMTypeRef number() const { return number_; }
+  LLVMModuleRef module() const { return module_; }
+  Place sample_function(const char* name) const { return begin(name, {pointer_, pointer_}); }
+  Place block_function(const char* name) const { return begin(name, {pointer_, pointer_, size_}); }
 
-  const LLVMValueRef repair = declare(module, kSincosRepairName, {pointer, pointer, pointer, size});
-  const LLVMBuilderRef builder = LLVMCreateBuilderInContext(context);
-  const auto begin = [&](LLVMValueRef function) {
+ private:
+  Place begin(const char* name, std::vector<LLVMTypeRef> parameters) const {
+    const LLVMValueRef function = declare(module_, name, std::move(parameters));
     for (const unsigned parameter : {1u, 2u}) add_attribute(function, parameter, "noalias");
     add_attribute(function, LLVMAttributeFunctionIndex, "nounwind");
-    LLVMPositionBuilderAtEnd(builder, LLVMAppendBasicBlockInContext(context, function, "entry"));
-    return Place{builder, function, repair, fuse};
+    LLVMPositionBuilderAtEnd(
+        builder_, LLVMAppendBasicBlockInContext(LLVMGetModuleContext(module_), function, "entry"));
+    return {builder_, function, repair_, options_.fuse};
+  }
+
+  EmitOptions options_;
+  LLVMModuleRef module_;
+  LLVMBuilderRef builder_;
+  LLVMTypeRef number_, pointer_, size_;
+  LLVMValueRef repair_;
+};
+
+}  // namespace
+
+LLVMModuleRef emit_samples(LLVMContextRef context, const CodeSource& source,
+                           const EmitOptions& options) {
+  const Module module(context, source, options);
+  const auto emit = [&](const char* name, const program::LimbProgram& program) {
+    emit_sample(program, module.sample_function(name), module.number(), options.registers);
   };
-  const auto function = [&](const char* name) { return declare(module, name, {pointer, pointer}); };
-  if (limbs == nullptr) {
-    emit_samples(computation, begin(function(kSingleName)), number, nullptr);
-  } else {
-    emit_limbs(*limbs, begin(function(kSingleName)), number);
+  if (source.limbs != nullptr) emit(kSingleName, *source.limbs);
+  if (source.limbs == nullptr || source.wanted.one_by_one) {
+    emit(source.limbs == nullptr ? kSingleName : kOneByOneName, as_one_region(source.computation));
   }
-  if (wanted.one_by_one) {
-    emit_samples(computation, begin(function(kOneByOneName)), number, nullptr);
-  }
-  if (wanted.block) {
-    constexpr unsigned kBlockBytes = 64;
-    const LLVMValueRef block = declare(module, kBlockName, {pointer, pointer, size});
-    emit_samples(computation, begin(block), LLVMVectorType(number, kBlockBytes / bytes_of(number)),
-                 LLVMGetParam(block, 2));
-  }
-  LLVMDisposeBuilder(builder);
-  return module;
+  return module.module();
+}
+
+LLVMModuleRef emit_block(LLVMContextRef context, const CodeSource& source,
+                         const EmitOptions& options) {
+  constexpr unsigned kBlockBytes = 64;
+  const Module module(context, source, options);
+  write_block(source.computation, module.block_function(kBlockName),
+              LLVMVectorType(module.number(), kBlockBytes / bytes_of(module.number())));
+  return module.module();
 }
 
 }  // namespace sinew::backend

@@ -5,6 +5,8 @@
 
 #include <llvm-c/Core.h>
 
+#include <cstdint>
+
 #include "sinew/backend/jit/entry.h"
 #include "sinew/program/dag/dag.h"
 #include "sinew/program/limbs/limb_program.h"
@@ -17,16 +19,36 @@ inline constexpr const char* kBlockName = "sinew_block";
 // void(const double* x, double* sine, double* cosine, size_t n): see sincos.h.
 inline constexpr const char* kSincosRepairName = "sinew_sincos_repair";
 
+// What is compiled.
+struct CodeSource {
+  const program::Computation& computation;
+  const program::LimbProgram* limbs = nullptr;  // null: none
+  const JitWanted& wanted;
+};
+
+// Values that the function of one sample holds in registers; a few are left to the generator.
+inline constexpr std::uint32_t kRegistersOf32 = 28;
+inline constexpr std::uint32_t kRegistersOf16 = 13;
+
+// What the machine can do.
+struct EmitOptions {
+  bool fuse = false;  // products that are used once into fused multiply-adds
+  std::uint32_t registers = kRegistersOf16;
+};
+
 // A module with
 //   void sinew_single(const number* in, number* out)
-// and, as far as they are wanted,
+// and, if it is wanted,
+//   void sinew_one_by_one(const number* in, number* out)
+// With limbs sinew_single computes them side by side; sinew_one_by_one does what the block does for
+// one sample. They fuse the same products, so that both give the same bits.
+LLVMModuleRef emit_samples(LLVMContextRef context, const CodeSource& source,
+                           const EmitOptions& options);
+
+// A module with
 //   void sinew_block(const number* in, number* out, size_t stride)   as many samples as fit into 64
 //   bytes: input i of sample k at in[i * stride + k], outputs likewise
-//   void sinew_one_by_one(const number* in, number* out)
-// With `limbs` (null: none) sinew_single computes them side by side; sinew_one_by_one does what the
-// block does for one sample. `fuse` contracts products that are used once into fused
-// multiply-adds, the same ones in both of them, so that both give the same bits.
-LLVMModuleRef emit_module(LLVMContextRef context, const program::Computation& computation,
-                          const program::LimbProgram* limbs, const JitWanted& wanted, bool fuse);
+LLVMModuleRef emit_block(LLVMContextRef context, const CodeSource& source,
+                         const EmitOptions& options);
 
 }  // namespace sinew::backend

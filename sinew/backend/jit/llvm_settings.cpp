@@ -2,8 +2,11 @@
 
 #ifdef SINEW_OWN_LLVM
 #include <llvm-c/Support.h>
+#include <llvm/CodeGen/MachineScheduler.h>
 #include <llvm/CodeGen/Passes.h>
 #include <llvm/CodeGen/RegAllocRegistry.h>
+#include <llvm/CodeGen/ScheduleDAGInstrs.h>
+#include <llvm/CodeGen/TargetPassConfig.h>
 
 #include <iterator>
 #endif
@@ -14,11 +17,26 @@ namespace sinew::backend {
 
 namespace {
 
-thread_local JitLevel level_of_thread = JitLevel::kFull;
+thread_local CodeOrder::Who who_of_thread = CodeOrder::kByGenerator;
 
 llvm::FunctionPass* register_allocator() {
-  return level_of_thread == JitLevel::kFast ? llvm::createBasicRegisterAllocator()
-                                            : llvm::createGreedyRegisterAllocator();
+  return who_of_thread == CodeOrder::kAsWritten ? llvm::createBasicRegisterAllocator()
+                                                : llvm::createGreedyRegisterAllocator();
+}
+
+// Leaves all where it is.
+class NoScheduling : public llvm::ScheduleDAGInstrs {
+ public:
+  using ScheduleDAGInstrs::ScheduleDAGInstrs;
+  void schedule() override {}
+};
+
+llvm::ScheduleDAGInstrs* scheduler(llvm::MachineSchedContext* context) {
+  if (who_of_thread == CodeOrder::kAsWritten) {
+    return new NoScheduling(*context->MF, context->MLI);  // the pass owns it
+  }
+  llvm::ScheduleDAGInstrs* const own = context->PassConfig->createMachineScheduler(context);
+  return own != nullptr ? own : llvm::createGenericSchedLive(context);
 }
 
 }  // namespace
@@ -28,7 +46,8 @@ void set_up_code_generator() {
     // Both look at all pairs of loads and stores of a block, of which ours have a thousand. We join
     // neighbouring stores ourselves (constant_results.h); and the scheduler gives up telling loads
     // and stores apart one by one where there are more than a hundred.
-    const char* const options[] = {"sinew", "-combiner-store-merging=false",
+    static llvm::MachineSchedRegistry registered("sinew", "as the thread wants it", scheduler);
+    const char* const options[] = {"sinew", "-misched=sinew", "-combiner-store-merging=false",
                                    "-dag-maps-huge-region=100", "-dag-maps-reduction-size=50"};
     LLVMParseCommandLineOptions(static_cast<int>(std::size(options)), options, nullptr);
     llvm::RegisterRegAlloc::setDefault(register_allocator);
@@ -37,14 +56,14 @@ void set_up_code_generator() {
   static_cast<void>(done);
 }
 
-RegisterAllocation::RegisterAllocation(JitLevel level) { level_of_thread = level; }
-RegisterAllocation::~RegisterAllocation() { level_of_thread = JitLevel::kFull; }
+CodeOrder::CodeOrder(Who who) { who_of_thread = who; }
+CodeOrder::~CodeOrder() { who_of_thread = kByGenerator; }
 
 #else
 
 void set_up_code_generator() {}
-RegisterAllocation::RegisterAllocation(JitLevel) {}
-RegisterAllocation::~RegisterAllocation() {}
+CodeOrder::CodeOrder(Who) {}
+CodeOrder::~CodeOrder() = default;
 
 #endif
 

@@ -16,6 +16,8 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "sinew/backend/jit/build_identity.h"
 #include "sinew/backend/jit/content_hash.h"
@@ -44,7 +46,7 @@ void check(LLVMErrorRef error) {
 // What this machine is, in LLVM's words.
 struct Host {
   std::string triple, cpu, features;
-  bool has_fma = false;
+  EmitOptions emit;
 };
 
 Host host() {
@@ -58,10 +60,15 @@ Host host() {
   result.cpu = take(LLVMGetHostCPUName());
   result.features = take(LLVMGetHostCPUFeatures());
   const std::string list = "," + result.features + ",";
-  result.has_fma =
-      list.find(",+fma,") != std::string::npos || result.triple.rfind("aarch64", 0) == 0;
+  const auto has = [&](const char* feature) { return list.find(feature) != std::string::npos; };
+  const bool is_arm = result.triple.rfind("aarch64", 0) == 0;
+  result.emit.fuse = is_arm || has(",+fma,");
+  result.emit.registers = is_arm || has(",+avx512vl,") ? kRegistersOf32 : kRegistersOf16;
   return result;
 }
+
+// Code for one sample, whose registers are planned here; or for a block of them.
+enum class CodePart { kSamples, kBlock };
 
 class Machine {
  public:
@@ -88,13 +95,18 @@ class Machine {
   LLVMTargetMachineRef machine_ = nullptr;
 };
 
-// The object file of the computation's module.
-std::string compile_object(const program::Computation& computation,
-                           const program::LimbProgram* limbs, const JitWanted& wanted,
-                           const Host& host, JitLevel level) {
+LLVMModuleRef emit_part(LLVMContextRef context, CodePart part, const CodeSource& source,
+                        const EmitOptions& options) {
+  return part == CodePart::kSamples ? emit_samples(context, source, options)
+                                    : emit_block(context, source, options);
+}
+
+// The object file of a module.
+std::string compile_object(CodePart part, const CodeSource& source, const Host& host,
+                           JitLevel level) {
   const Machine machine(host, level);
   const LLVMContextRef context = LLVMContextCreate();
-  const LLVMModuleRef module = emit_module(context, computation, limbs, wanted, host.has_fma);
+  const LLVMModuleRef module = emit_part(context, part, source, host.emit);
   LLVMSetTarget(module, host.triple.c_str());
   const LLVMTargetDataRef layout = LLVMCreateTargetDataLayout(machine.get());
   LLVMSetModuleDataLayout(module, layout);
@@ -109,7 +121,9 @@ std::string compile_object(const program::Computation& computation,
   message = nullptr;
 #endif
   LLVMMemoryBufferRef buffer = nullptr;
-  const RegisterAllocation registers(level);
+  const bool is_planned = part == CodePart::kSamples;
+  const CodeOrder order(is_planned || level == JitLevel::kFast ? CodeOrder::kAsWritten
+                                                               : CodeOrder::kByGenerator);
   if (fault.empty() && LLVMTargetMachineEmitToMemoryBuffer(machine.get(), module, LLVMObjectFile,
                                                            &message, &buffer)) {
     fault = message;
@@ -128,6 +142,21 @@ std::string compile_object(const program::Computation& computation,
 std::string read_cached(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Empty where nothing is kept.
+std::filesystem::path cached_path(CodePart part, const CodeSource& source, const Host& host,
+                                  const JitOptions& options) {
+  static const std::string identity = build_identity();
+  if (options.cache_folder.empty() || identity.empty()) return {};
+  std::string machine = host.triple + host.cpu + host.features + identity;
+  machine += source.wanted.is_float ? " float" : " double";
+  machine += part == CodePart::kBlock ? " block" : " planned";
+  if (part == CodePart::kSamples && source.wanted.one_by_one) machine += " one by one";
+  machine += static_cast<char>('0' + static_cast<int>(options.level));
+  const program::LimbProgram* const limbs = part == CodePart::kBlock ? nullptr : source.limbs;
+  return std::filesystem::path(options.cache_folder) /
+         (content_hash(source.computation, limbs, machine) + ".o");
 }
 
 // Keeping a compiled object is a convenience: where the folder cannot be written, the next run
@@ -176,10 +205,12 @@ std::size_t function_bytes(const std::string& object, std::string_view name) {
 // Owns code that ORC has linked into this process.
 class LinkedCode {
  public:
-  explicit LinkedCode(const std::string& object) {
+  explicit LinkedCode(const std::vector<std::string>& objects) {
     check(LLVMOrcCreateLLJIT(&jit_, nullptr));
     define_sincos_repair();
-    check(LLVMOrcLLJITAddObjectFile(jit_, LLVMOrcLLJITGetMainJITDylib(jit_), buffer_of(object)));
+    for (const std::string& object : objects) {
+      check(LLVMOrcLLJITAddObjectFile(jit_, LLVMOrcLLJITGetMainJITDylib(jit_), buffer_of(object)));
+    }
   }
   ~LinkedCode() {
     if (jit_ != nullptr) LLVMConsumeError(LLVMOrcDisposeLLJIT(jit_));
@@ -218,35 +249,28 @@ extern "C" void SINEW_JIT_COMPILE(const program::Computation& computation,
   set_up_code_generator();
   static const Host this_host = host();
 
-  std::string object;
-  std::filesystem::path cached;
-  bool from_cache = false;
-  static const std::string identity = build_identity();
-  if (!options.cache_folder.empty() && !identity.empty()) {
-    std::string machine = this_host.triple + this_host.cpu + this_host.features + identity;
-    machine += wanted.is_float ? " float" : " double";
-    if (wanted.block) machine += " block";
-    if (wanted.one_by_one) machine += " one by one";
-    cached =
-        std::filesystem::path(options.cache_folder) /
-        (content_hash(computation, limbs, machine + char('0' + static_cast<int>(options.level))) +
-         ".o");
-    object = read_cached(cached);
-    from_cache = function_bytes(object, kSingleName) > 0;
+  const CodeSource source{computation, limbs, wanted};
+  std::vector<std::string> objects;
+  result.from_cache = true;
+  for (const CodePart part : {CodePart::kSamples, CodePart::kBlock}) {
+    if (part == CodePart::kBlock && !wanted.block) continue;
+    const std::filesystem::path cached = cached_path(part, source, this_host, options);
+    std::string object;
+    if (!cached.empty()) object = read_cached(cached);
+    const char* const name = part == CodePart::kSamples ? kSingleName : kBlockName;
+    if (function_bytes(object, name) == 0) {
+      object = compile_object(part, source, this_host, options.level);
+      if (!cached.empty()) write_cached(cached, object);
+      result.from_cache = false;
+    }
+    (part == CodePart::kSamples ? result.code_bytes : result.batch_code_bytes) =
+        function_bytes(object, name);
+    objects.push_back(std::move(object));
   }
-  if (!from_cache) {
-    object = compile_object(computation, limbs, wanted, this_host, options.level);
-    if (!cached.empty()) write_cached(cached, object);
-  }
-  const auto code = std::make_shared<LinkedCode>(object);
+  const auto code = std::make_shared<LinkedCode>(objects);
   result.single = code->find<void*>(kSingleName);
   result.one_by_one = wanted.one_by_one ? code->find<void*>(kOneByOneName) : result.single;
-  result.code_bytes = function_bytes(object, kSingleName);
-  if (wanted.block) {
-    result.block = code->find<void*>(kBlockName);
-    result.batch_code_bytes = function_bytes(object, kBlockName);
-  }
-  result.from_cache = from_cache;
+  if (wanted.block) result.block = code->find<void*>(kBlockName);
   result.owner = code;
 }
 

@@ -79,14 +79,9 @@ Pair fast_sincos(const Ir& ir, LLVMValueRef x) {
           ir.flip_sign(ir.select(odd, sine, cosine), sign_of_cosine)};
 }
 
-}  // namespace
-
-SincosValues emit_sincos(LLVMBuilderRef builder, LLVMValueRef function, LLVMValueRef repair,
-                         const std::vector<LLVMValueRef>& angles, bool fuse) {
-  SincosValues values;
-  if (angles.empty()) return values;
-  const Ir ir(builder, LLVMTypeOf(angles.front()), fuse);
-
+// Those of all angles; a bit that says whether the method covers all of them.
+LLVMValueRef fast_sincos(const Ir& ir, LLVMBuilderRef builder,
+                         const std::vector<LLVMValueRef>& angles, SincosValues& values) {
   LLVMValueRef covered = nullptr;
   for (const LLVMValueRef x : angles) {
     const Pair pair = fast_sincos(ir, x);
@@ -95,44 +90,113 @@ SincosValues emit_sincos(LLVMBuilderRef builder, LLVMValueRef function, LLVMValu
     const LLVMValueRef in_range = ir.magnitude_at_most(x, kLargestAngle);
     covered = covered == nullptr ? in_range : LLVMBuildAnd(builder, covered, in_range, "");
   }
+  return ir.all(covered);
+}
 
-  const LLVMContextRef context = ir.context();
-  const LLVMBasicBlockRef fast = LLVMGetInsertBlock(builder);
-  const LLVMBasicBlockRef slow = LLVMAppendBasicBlockInContext(context, function, "repair");
-  const LLVMBasicBlockRef next = LLVMAppendBasicBlockInContext(context, function, "reduced");
-  LLVMBuildCondBr(builder, ir.all(covered), next, slow);
-
-  // The repair works in memory; the arrays are made in the entry block so that they are made once.
-  LLVMPositionBuilderAtEnd(builder, slow);
-  const LLVMValueRef x_array = ir.entry_array(function, angles.size());
-  const LLVMValueRef sine_array = ir.entry_array(function, angles.size());
-  const LLVMValueRef cosine_array = ir.entry_array(function, angles.size());
-  for (std::size_t i = 0; i < angles.size(); ++i) {
-    ir.store_element(angles[i], x_array, i);
-    ir.store_element(values.sine[i], sine_array, i);
-    ir.store_element(values.cosine[i], cosine_array, i);
+// Where the repair is made, and where the code goes on.
+class Repair {
+ public:
+  Repair(LLVMBuilderRef builder, LLVMValueRef function, LLVMValueRef covered)
+      : builder_(builder), fast_(LLVMGetInsertBlock(builder)) {
+    const LLVMContextRef context = LLVMGetTypeContext(LLVMTypeOf(covered));
+    slow_ = LLVMAppendBasicBlockInContext(context, function, "repair");
+    next_ = LLVMAppendBasicBlockInContext(context, function, "reduced");
+    LLVMBuildCondBr(builder, covered, next_, slow_);
+    LLVMPositionBuilderAtEnd(builder, slow_);
   }
-  LLVMValueRef arguments[] = {
-      x_array, sine_array, cosine_array,
-      LLVMConstInt(LLVMInt64TypeInContext(context), angles.size() * ir.lanes(), false)};
-  LLVMBuildCall2(builder, LLVMGlobalGetValueType(repair), repair, arguments, 4, "");
-  std::vector<LLVMValueRef> repaired_sine, repaired_cosine;
-  for (std::size_t i = 0; i < angles.size(); ++i) {
-    repaired_sine.push_back(ir.load_element(sine_array, i));
-    repaired_cosine.push_back(ir.load_element(cosine_array, i));
+  void call(LLVMValueRef repair, LLVMValueRef angles, LLVMValueRef sines, LLVMValueRef cosines,
+            std::size_t n) const {
+    const LLVMContextRef context = LLVMGetTypeContext(LLVMTypeOf(angles));
+    LLVMValueRef arguments[] = {angles, sines, cosines,
+                                LLVMConstInt(LLVMInt64TypeInContext(context), n, false)};
+    LLVMBuildCall2(builder_, LLVMGlobalGetValueType(repair), repair, arguments, 4, "");
   }
-  LLVMBuildBr(builder, next);
-
-  LLVMPositionBuilderAtEnd(builder, next);
-  const auto merge = [&](LLVMValueRef& value, LLVMValueRef repaired) {
-    const LLVMValueRef phi = LLVMBuildPhi(builder, LLVMTypeOf(value), "");
+  void end() const {
+    LLVMBuildBr(builder_, next_);
+    LLVMPositionBuilderAtEnd(builder_, next_);
+  }
+  // After the end: the value, or what the repair has made of it.
+  void merge(LLVMValueRef& value, LLVMValueRef repaired) const {
+    const LLVMValueRef phi = LLVMBuildPhi(builder_, LLVMTypeOf(value), "");
     LLVMValueRef incoming[] = {value, repaired};
-    LLVMBasicBlockRef blocks[] = {fast, slow};
+    LLVMBasicBlockRef blocks[] = {fast_, slow_};
     LLVMAddIncoming(phi, incoming, blocks, 2);
     value = phi;
-  };
-  for (std::size_t i = 0; i < angles.size(); ++i) merge(values.sine[i], repaired_sine[i]);
-  for (std::size_t i = 0; i < angles.size(); ++i) merge(values.cosine[i], repaired_cosine[i]);
+  }
+  void merge(SincosValues& values, const SincosValues& repaired) const {
+    for (std::size_t i = 0; i < values.sine.size(); ++i) merge(values.sine[i], repaired.sine[i]);
+    for (std::size_t i = 0; i < values.sine.size(); ++i) {
+      merge(values.cosine[i], repaired.cosine[i]);
+    }
+  }
+
+ private:
+  LLVMBuilderRef builder_;
+  LLVMBasicBlockRef fast_, slow_ = nullptr, next_ = nullptr;
+};
+
+SincosValues load_all(const Ir& ir, LLVMValueRef sines, LLVMValueRef cosines, std::size_t n) {
+  SincosValues values;
+  for (std::size_t i = 0; i < n; ++i) {
+    values.sine.push_back(ir.load_element(sines, i));
+    values.cosine.push_back(ir.load_element(cosines, i));
+  }
+  return values;
+}
+
+}  // namespace
+
+SincosValues emit_sincos(LLVMBuilderRef builder, LLVMValueRef function, LLVMValueRef repair,
+                         const std::vector<LLVMValueRef>& angles, bool fuse) {
+  SincosValues values;
+  if (angles.empty()) return values;
+  const Ir ir(builder, LLVMTypeOf(angles.front()), fuse);
+  const Repair slow(builder, function, fast_sincos(ir, builder, angles, values));
+
+  // The repair works in memory; the arrays are made in the entry block so that they are made once.
+  const std::size_t n = angles.size();
+  const LLVMValueRef x_array = ir.entry_array(function, n);
+  const LLVMValueRef sines = ir.entry_array(function, n);
+  const LLVMValueRef cosines = ir.entry_array(function, n);
+  for (std::size_t i = 0; i < n; ++i) {
+    ir.store_element(angles[i], x_array, i);
+    ir.store_element(values.sine[i], sines, i);
+    ir.store_element(values.cosine[i], cosines, i);
+  }
+  slow.call(repair, x_array, sines, cosines, n * ir.lanes());
+  const SincosValues repaired = load_all(ir, sines, cosines, n);
+  slow.end();
+  slow.merge(values, repaired);
+  return values;
+}
+
+SincosValues emit_sincos_to(const Place& place, const std::vector<LLVMValueRef>& angles,
+                            LLVMValueRef sines, LLVMValueRef cosines,
+                            const std::vector<LLVMValueRef*>& pointers) {
+  SincosValues values;
+  const Ir ir(place.builder, LLVMTypeOf(angles.front()), place.fuse);
+  const LLVMValueRef covered = fast_sincos(ir, place.builder, angles, values);
+  const std::size_t n = angles.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    ir.store_element(values.sine[i], sines, i);
+    ir.store_element(values.cosine[i], cosines, i);
+  }
+  const Repair slow(place.builder, place.function, covered);
+  const LLVMValueRef x_array = ir.entry_array(place.function, n);
+  for (std::size_t i = 0; i < n; ++i) ir.store_element(angles[i], x_array, i);
+  const Ir address(place.builder, LLVMTypeOf(sines), false);
+  const LLVMValueRef saved = address.entry_array(place.function, pointers.size());
+  for (std::size_t i = 0; i < pointers.size(); ++i) address.store_element(*pointers[i], saved, i);
+  slow.call(place.repair, x_array, sines, cosines, n * ir.lanes());
+  std::vector<LLVMValueRef> again;
+  for (std::size_t i = 0; i < pointers.size(); ++i) {
+    again.push_back(address.load_element(saved, i));
+    LLVMSetVolatile(again.back(), true);  // LLVM would rather save a register around the call
+  }
+  const SincosValues repaired = load_all(ir, sines, cosines, n);
+  slow.end();
+  for (std::size_t i = 0; i < pointers.size(); ++i) slow.merge(*pointers[i], again[i]);
+  slow.merge(values, repaired);
   return values;
 }
 

@@ -12,6 +12,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "sinew/backend/jit/place.h"
+
 namespace sinew::backend {
 
 inline constexpr unsigned kSineLanes = 8;  // angles in a vector of doubles
@@ -24,6 +26,13 @@ struct SincosValues {
 // where the code goes on. `repair` is a declaration of kSincosRepairName in the same module.
 SincosValues emit_sincos(LLVMBuilderRef builder, LLVMValueRef function, LLVMValueRef repair,
                          const std::vector<LLVMValueRef>& angles, bool fuse);
+
+// The same of vectors, all as wide, written one behind the other to `sines` and `cosines`, of which
+// the repair happens in place. `pointers` are needed afterwards: they come back by way of memory,
+// so that the repair's call costs nothing where it is not made.
+SincosValues emit_sincos_to(const Place& place, const std::vector<LLVMValueRef>& angles,
+                            LLVMValueRef sines, LLVMValueRef cosines,
+                            const std::vector<LLVMValueRef*>& pointers);
 
 // Replaces what is wrong for angles that the fast method does not cover.
 extern "C" void sinew_sincos_repair(const double* x, double* sine, double* cosine, std::size_t n);

@@ -1,0 +1,326 @@
+#include "sinew/backend/jit/sample_emitter.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "sinew/backend/jit/computation_emitter.h"
+#include "sinew/backend/jit/constant_results.h"
+#include "sinew/backend/jit/ir.h"
+#include "sinew/backend/jit/memory.h"
+#include "sinew/backend/jit/sample_steps.h"
+
+namespace sinew::backend {
+namespace {
+
+using program::Computation;
+using program::LimbProgram;
+using program::LimbRegion;
+using program::LimbSource;
+using program::Node;
+using program::Op;
+using program::Ref;
+
+// Steps in which sines and cosines come from the registers that they were computed in: those of
+// the first joints, which all else waits for.
+constexpr std::size_t kEarlySteps = 40;
+// Steps for which what lies in memory is held from one reader to the next.
+constexpr std::uint32_t kLongest = 20;
+
+class SampleEmitter {
+ public:
+  SampleEmitter(const LimbProgram& program, const Place& place, LLVMTypeRef number)
+      : program_(program), place_(place), number_(number), angles_(program.regions.size()) {
+    for (std::uint32_t region = 0; region < program.regions.size(); ++region) {
+      emitters_.emplace_back(program.regions[region].computation, place, type_of(region),
+                             [this, region](std::uint32_t node) { return fetched(region, node); });
+    }
+  }
+
+  void emit(std::uint32_t registers) {
+    const std::vector<LLVMValueRef> packs = packs_of_angles();
+    sort_results();
+    const SampleSteps steps(program_, emitters_, later_);
+    steps_ = &steps;
+    plan_ = plan_registers(steps.registers(), registers, kLongest);
+    Memory memory(place_, number_, {program_.inputs, program_.results.size(), plan_.size});
+    memory_ = &memory;
+    if (!packs.empty()) memory.write_sines(packs);
+    memory.begin();
+    store_constant_results(place_.builder, number_, memory.results(), constants_);
+    for (step_ = 0; step_ < steps.nodes().size(); ++step_) {
+      const auto [region, node] = steps.nodes()[step_];
+      compute(region, node);
+      for (const std::uint32_t value : plan_.leaving[step_]) {
+        const RegionNode left = steps.node_of(value);
+        emitters_[left.region].forget(left.node);
+      }
+    }
+    for (const std::uint32_t i : later_) memory.write_result(number(program_.results[i]), i);
+    LLVMBuildRetVoid(place_.builder);
+    memory.end();
+  }
+
+ private:
+  LLVMTypeRef type_of(std::uint32_t region) const {
+    const unsigned width = vector_width(program_.regions[region].lanes);
+    return width == 1 ? number_ : LLVMVectorType(number_, width);
+  }
+  const Node& node_of(std::uint32_t region, std::uint32_t node) const {
+    return program_.regions[region].computation.dag.node(node);
+  }
+
+  // Which results are written when, and those that are no operations.
+  void sort_results() {
+    results_of_.resize(program_.regions.size());
+    constants_.resize(program_.results.size());
+    for (std::uint32_t i = 0; i < program_.results.size(); ++i) {
+      const LimbSource& source = program_.results[i];
+      constants_[i] = constant(source);
+      if (constants_[i]) continue;
+      if (source.kind == LimbSource::Kind::kRegion) {
+        const Ref result = program_.regions[source.region].computation.results[source.index];
+        if (emitters_[source.region].is_statement(result.node())) {
+          results_of_[source.region][result.node()].push_back(i);
+          continue;
+        }
+      }
+      later_.push_back(i);
+    }
+  }
+
+  // The value of a source that needs no computation.
+  std::optional<double> constant(const LimbSource& source) const {
+    if (source.kind == LimbSource::Kind::kConstant) return source.value;
+    if (source.kind != LimbSource::Kind::kRegion) return std::nullopt;
+    const Computation& of = program_.regions[source.region].computation;
+    const Ref result = of.results[source.index].negated_if(source.negative);
+    if (!of.dag.is_constant(result)) return std::nullopt;
+    return of.dag.constant_value(result);
+  }
+
+  // All angles that the caller hands over, of all regions: what a region waits for is then under
+  // way before the region in front of it is done. None lies across two vectors.
+  std::vector<LLVMValueRef> packs_of_angles() {
+    std::vector<RegionNode> nodes;
+    for (std::uint32_t at = 0; at < program_.regions.size(); ++at) {
+      const LimbRegion& region = program_.regions[at];
+      for (const std::uint32_t node : emitters_[at].angles_that_are_inputs()) {
+        const auto& sources = region.inputs[region.computation.dag.node(node).index];
+        const bool from_caller = std::all_of(
+            sources.begin(), sources.end(),
+            [](const LimbSource& source) { return source.kind == LimbSource::Kind::kCaller; });
+        if (from_caller) nodes.push_back({at, node});
+      }
+    }
+    std::stable_sort(nodes.begin(), nodes.end(), [&](const RegionNode& a, const RegionNode& b) {
+      return vector_width(program_.regions[a.region].lanes) >
+             vector_width(program_.regions[b.region].lanes);
+    });
+    std::vector<LLVMValueRef> numbers;
+    for (const RegionNode& angle : nodes) {
+      const LimbRegion& region = program_.regions[angle.region];
+      const auto& sources = region.inputs[node_of(angle.region, angle.node).index];
+      angles_[angle.region][angle.node] = numbers.size();
+      emitters_[angle.region].fetch_sine(angle.node);
+      for (unsigned lane = 0; lane < vector_width(region.lanes); ++lane) {
+        numbers.push_back(angle_number(sources[lane < sources.size() ? lane : 0].index));
+      }
+    }
+    return packs_of(numbers);
+  }
+
+  LLVMValueRef angle_number(std::uint32_t input) const {
+    LLVMValueRef offset = integer(input);
+    const LLVMValueRef value =
+        LLVMBuildLoad2(place_.builder, number_,
+                       LLVMBuildInBoundsGEP2(place_.builder, number_,
+                                             LLVMGetParam(place_.function, 0), &offset, 1, ""),
+                       "");
+    LLVMSetAlignment(value, bytes_of(number_));
+    return value;
+  }
+
+  // Vectors of doubles, the last one filled with zeros.
+  std::vector<LLVMValueRef> packs_of(const std::vector<LLVMValueRef>& angles) const {
+    const LLVMContextRef context = LLVMGetTypeContext(number_);
+    const Ir plain(place_.builder, number_, place_.fuse);
+    const unsigned width = angles.size() > 4 ? kSineLanes : angles.size() > 2 ? 4 : 2;
+    std::vector<LLVMValueRef> packs;
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      if (i % width == 0) {
+        packs.push_back(LLVMConstNull(LLVMVectorType(LLVMDoubleTypeInContext(context), width)));
+      }
+      packs.back() = LLVMBuildInsertElement(place_.builder, packs.back(),
+                                            plain.to_double(angles[i]), integer(i % width), "");
+    }
+    return packs;
+  }
+
+  void compute(std::uint32_t region, std::uint32_t node) {
+    ComputationEmitter& emitter = emitters_[region];
+    const Node& of = node_of(region, node);
+    const LLVMValueRef value =
+        of.op == Op::kInput ? gathered(region, of.index) : emitter.compute(node);
+    emitter.hold(node, value);
+    const std::uint32_t slot = plan_.slot[steps_->value(region, node)];
+    if (slot != RegisterPlan::kNoSlot) memory_->keep(value, slot);
+    const auto results = results_of_[region].find(node);
+    if (results == results_of_[region].end()) return;
+    for (const std::uint32_t i : results->second)
+      memory_->write_result(number(program_.results[i]), i);
+  }
+
+  // What a node of a region is in memory; null: nothing.
+  LLVMValueRef fetched(std::uint32_t region, std::uint32_t node) {
+    const Node& of = node_of(region, node);
+    switch (of.op) {
+      case Op::kConstant:
+        return memory_->constant(
+            std::vector<double>(vector_width(program_.regions[region].lanes), of.value));
+      case Op::kInput:
+        if (const LLVMValueRef value = plain_input(region, of.index)) return value;
+        break;
+      case Op::kSin:
+      case Op::kCos:
+        if (const LLVMValueRef value = fetched_sine(region, of)) return value;
+        break;
+      default:
+        break;
+    }
+    const std::uint32_t slot = plan_.slot[steps_->value(region, node)];
+    return slot == RegisterPlan::kNoSlot ? nullptr : memory_->waiting(slot, type_of(region));
+  }
+
+  LLVMValueRef plain_input(std::uint32_t region, std::uint32_t input) {
+    const std::vector<LimbSource>& sources = program_.regions[region].inputs[input];
+    switch (kind_of_input(program_.regions[region], input)) {
+      case RegionInput::kCaller:
+        return memory_->input(sources[0].index);
+      case RegionInput::kConstant: {
+        std::vector<double> lanes;
+        for (unsigned lane = 0; lane < vector_width(program_.regions[region].lanes); ++lane) {
+          lanes.push_back(sources[lane < sources.size() ? lane : 0].value);
+        }
+        return memory_->constant(lanes);
+      }
+      case RegionInput::kGathered:
+        break;
+    }
+    return nullptr;
+  }
+
+  LLVMValueRef fetched_sine(std::uint32_t region, const Node& of) const {
+    const auto at = angles_[region].find(of.a.node());
+    if (at == angles_[region].end()) return nullptr;
+    const LLVMTypeRef type = type_of(region);
+    const bool early = step_ < kEarlySteps;
+    if (of.op == Op::kCos) {
+      return early ? memory_->early_cosine(at->second, type) : memory_->cosine(at->second, type);
+    }
+    const LLVMValueRef sine =
+        early ? memory_->early_sine(at->second, type) : memory_->sine(at->second, type);
+    return of.a.negative() ? LLVMBuildFNeg(place_.builder, sine, "") : sine;
+  }
+
+  LLVMValueRef integer(std::size_t value) const {
+    return LLVMConstInt(LLVMInt64TypeInContext(LLVMGetTypeContext(number_)), value, false);
+  }
+
+  // A plain number.
+  LLVMValueRef number(const LimbSource& source) {
+    if (source.kind == LimbSource::Kind::kConstant) return LLVMConstReal(number_, source.value);
+    if (source.kind == LimbSource::Kind::kCaller) return memory_->input(source.index);
+    const LimbRegion& region = program_.regions[source.region];
+    const Ref result = region.computation.results[source.index];
+    const LLVMValueRef value = lane_of(source.region, result.node(), source.lane);
+    return source.negative != result.negative() ? LLVMBuildFNeg(place_.builder, value, "") : value;
+  }
+
+  LLVMValueRef lane_of(std::uint32_t region, std::uint32_t node, std::uint32_t lane) {
+    ComputationEmitter& emitter = emitters_[region];
+    if (program_.regions[region].lanes == 1) return emitter.value(node);
+    if (emitter.held(node) == nullptr) {
+      const std::uint32_t slot = plan_.slot[steps_->value(region, node)];
+      if (slot != RegisterPlan::kNoSlot) return memory_->waiting(slot + lane, number_);
+      const Node& of = node_of(region, node);
+      if (of.op == Op::kInput) return number(program_.regions[region].inputs[of.index][lane]);
+    }
+    return LLVMBuildExtractElement(place_.builder, emitter.value(node), integer(lane), "");
+  }
+
+  // One number for each lane; those that are left over repeat the first.
+  LLVMValueRef gathered(std::uint32_t region, std::uint32_t input) {
+    const std::vector<LimbSource>& sources = program_.regions[region].inputs[input];
+    const unsigned width = vector_width(program_.regions[region].lanes);
+    if (width == 1) return number(sources[0]);
+    if (is_whole_vector(sources)) {
+      const Ref result = program_.regions[sources[0].region].computation.results[sources[0].index];
+      const LLVMValueRef value = emitters_[sources[0].region].value(result.node());
+      return sources[0].negative != result.negative() ? LLVMBuildFNeg(place_.builder, value, "")
+                                                      : value;
+    }
+    LLVMValueRef vector = LLVMGetUndef(type_of(region));
+    LLVMValueRef first = nullptr;
+    for (unsigned lane = 0; lane < width; ++lane) {
+      // A number that all lanes share is loaded once.
+      const bool repeats = lane > 0 && (lane >= sources.size() || sources[lane] == sources[0]);
+      const LLVMValueRef value = repeats ? first : number(sources[lane]);
+      if (lane == 0) first = value;
+      vector = LLVMBuildInsertElement(place_.builder, vector, value, integer(lane), "");
+    }
+    return vector;
+  }
+
+  // Whether these are the lanes of one result, in their order.
+  bool is_whole_vector(const std::vector<LimbSource>& sources) const {
+    const LimbSource& first = sources[0];
+    if (first.kind != LimbSource::Kind::kRegion) return false;
+    if (program_.regions[first.region].lanes != sources.size()) return false;
+    for (std::uint32_t lane = 0; lane < sources.size(); ++lane) {
+      LimbSource expected = first;
+      expected.lane = lane;
+      if (!(sources[lane] == expected)) return false;
+    }
+    return true;
+  }
+
+  const LimbProgram& program_;
+  Place place_;
+  LLVMTypeRef number_;
+  std::vector<ComputationEmitter> emitters_;                  // of the regions
+  std::vector<std::map<std::uint32_t, std::size_t>> angles_;  // [region]: node, its place
+  std::vector<std::map<std::uint32_t, std::vector<std::uint32_t>>>
+      results_of_;                                // [region]: of a node
+  std::vector<std::optional<double>> constants_;  // results
+  std::vector<std::uint32_t> later_;              // other results, written at the end
+  const SampleSteps* steps_ = nullptr;
+  RegisterPlan plan_;
+  Memory* memory_ = nullptr;
+  std::size_t step_ = 0;
+};
+
+}  // namespace
+
+LimbProgram as_one_region(const Computation& computation) {
+  LimbProgram program;
+  program.inputs = computation.inputs;
+  LimbRegion& region = program.regions.emplace_back();
+  region.computation = computation;
+  for (std::uint32_t i = 0; i < computation.inputs; ++i) {
+    region.inputs.push_back({{.kind = LimbSource::Kind::kCaller, .index = i}});
+  }
+  for (std::uint32_t i = 0; i < computation.results.size(); ++i) {
+    program.results.push_back({.kind = LimbSource::Kind::kRegion, .index = i});
+  }
+  return program;
+}
+
+void emit_sample(const LimbProgram& program, const Place& place, LLVMTypeRef number,
+                 std::uint32_t registers) {
+  SampleEmitter(program, place, number).emit(registers);
+}
+
+}  // namespace sinew::backend
