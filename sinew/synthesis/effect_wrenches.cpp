@@ -5,8 +5,6 @@ namespace {
 
 using algorithm::kNoIndex;
 
-constexpr std::string_view kWrench = "effect-wrench";
-
 // The wrench that moves the body as it moves, without what acts on it from outside.
 BlockIndex inertial_wrench(const Context& context, Id frame) {
   const BlockIndex found = context.board.find("bias-inertial-wrench", frame);
@@ -89,14 +87,14 @@ void configure_effect_wrenches(Context& context, const Visit& visit, std::span<c
     }
     if (wrench == kNoIndex) continue;
     // What successors have handed on already comes on top.
-    const BlockIndex before = context.board.find(kWrench, key);
+    const BlockIndex before = context.board.find(kEffectWrench, key);
     if (before == kNoIndex) {
-      context.board.put(kWrench, key, wrench);
+      context.board.put(kEffectWrench, key, wrench);
       continue;
     }
     context.board.put("effect-wrench-of-successors", key, before);
     context.board.put("effect-wrench-own", key, wrench);
-    context.board.put(kWrench, key,
+    context.board.put(kEffectWrench, key,
                       make_effect_wrench(context, effect, "effect-wrench-on-body", visit.node,
                                          visit["body"], visit.node));
   }
@@ -122,35 +120,35 @@ void compute_effect_wrenches(Context& context, const Visit& visit, std::span<con
   }
 }
 
-void configure_wrench_past_joint(Context& context, const JointEdge& edge, const Effect& effect) {
-  const auto make = [&](std::string_view slot, Id of, Id frame) {
-    return make_effect_wrench(context, effect, slot, edge.joint, of, frame);
+void configure_wrench_past_joint(Context& context, const JointEdge& edge, const Effect& effect,
+                                 std::string_view slot) {
+  const std::string name(slot);
+  const auto make = [&](std::string_view where, Id of, Id frame) {
+    return make_effect_wrench(context, effect, name + std::string(where), edge.joint, of, frame);
   };
-  make("effect-wrench-at-joint", edge.successor, edge.joint_frame);
-  make("effect-wrench-at-predecessor", edge.successor, edge.parent);
-  BlockIndex before = effect_block(context, kWrench, effect.element, edge.parent);
+  make("-at-joint", edge.successor, edge.joint_frame);
+  make("-at-predecessor", edge.successor, edge.parent);
+  BlockIndex before = effect_block(context, slot, effect.element, edge.parent);
   if (before == kNoIndex) before = no_wrench(context, edge.parent, edge.predecessor);
-  context.board.put("effect-wrench-before", context.pair(effect.element, edge.joint), before);
-  context.board.put(kWrench, context.pair(effect.element, edge.parent),
-                    make("effect-wrench-with", edge.predecessor, edge.parent));
+  context.board.put(name + "-before", context.pair(effect.element, edge.joint), before);
+  context.board.put(slot, context.pair(effect.element, edge.parent),
+                    make("-with", edge.predecessor, edge.parent));
 }
 
 void compute_wrench_past_joint(Context& context, const JointEdge& edge, const Effect& effect,
-                               BlockIndex wrench) {
-  const auto block = [&](std::string_view slot) {
-    return effect_block(context, slot, effect.element, edge.joint);
+                               std::string_view slot, BlockIndex wrench) {
+  const auto block = [&](std::string_view where) {
+    return effect_block(context, std::string(slot) + std::string(where), effect.element,
+                        edge.joint);
   };
+  context.closure("transform-wrench-to-proximal",
+                  {context.block("pose-across-joint", edge.joint), wrench, block("-at-joint")},
+                  edge.joint);
   context.closure(
       "transform-wrench-to-proximal",
-      {context.block("pose-across-joint", edge.joint), wrench, block("effect-wrench-at-joint")},
+      {context.block("placement", edge.joint), block("-at-joint"), block("-at-predecessor")},
       edge.joint);
-  context.closure("transform-wrench-to-proximal",
-                  {context.block("placement", edge.joint), block("effect-wrench-at-joint"),
-                   block("effect-wrench-at-predecessor")},
-                  edge.joint);
-  context.closure("accumulate-wrench",
-                  {block("effect-wrench-before"), block("effect-wrench-at-predecessor"),
-                   block("effect-wrench-with")},
+  context.closure("accumulate-wrench", {block("-before"), block("-at-predecessor"), block("-with")},
                   edge.joint);
 }
 

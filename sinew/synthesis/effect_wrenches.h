@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/synthesis/effects.h"
@@ -15,11 +16,18 @@ namespace sinew::synthesis {
 void configure_effect_wrenches(Context& context, const Visit& visit, std::span<const Effect> list);
 void compute_effect_wrenches(Context& context, const Visit& visit, std::span<const Effect> list);
 
-// The wrench of an effect goes on past a joint: to the joint's frame and the predecessor's, where
-// it comes on top of what is there. The second pass begins with `wrench`, seen from the successor.
-void configure_wrench_past_joint(Context& context, const JointEdge& edge, const Effect& effect);
+// What an effect exerts at frames of bodies: all of it, or a constraint force by itself, which
+// needs to know of no joint but those on its way to the base.
+inline constexpr std::string_view kEffectWrench = "effect-wrench";
+inline constexpr std::string_view kLeverWrench = "lever-wrench";
+
+// The wrench of an effect in this slot goes on past a joint: to the joint's frame and the
+// predecessor's, where it comes on top of what is there. The second pass begins with `wrench`, seen
+// from the successor.
+void configure_wrench_past_joint(Context& context, const JointEdge& edge, const Effect& effect,
+                                 std::string_view slot);
 void compute_wrench_past_joint(Context& context, const JointEdge& edge, const Effect& effect,
-                               BlockIndex wrench);
+                               std::string_view slot, BlockIndex wrench);
 
 // What a step needs that takes wrenches and given forces of all groups of drivers inward.
 std::vector<std::string> needs_of_driver_wrenches(const MotionDrivers& drivers);

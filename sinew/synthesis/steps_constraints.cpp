@@ -1,6 +1,7 @@
 // Where Cartesian drivers enter: unit constraint forces and external wrenches, brought to the
 // frames of the bodies that they act on; the acceleration that a constrained frame has without any
 // force; and the joint forces that would replace a constraint force.
+#include "sinew/synthesis/effect_wrenches.h"
 #include "sinew/synthesis/effects.h"
 #include "sinew/synthesis/hybrid_steps.h"
 
@@ -182,51 +183,31 @@ void compute_bias(Context& context, const Visit& visit) {
 void start_lever(Context& context, const Visit& visit) {
   for (const ConstraintDirection& direction : context.drivers.directions)
     if (constraint_of(context, direction).at.body_frame == visit.node)
-      context.board.put("lever-wrench", context.pair(direction.element, visit.node),
+      context.board.put(kLeverWrench, context.pair(direction.element, visit.node),
                         context.block("constraint-wrench", direction.element));
 }
 
 void configure_lever(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   for (const Effect& effect : effects(context)) {
-    const BlockIndex wrench = effect_block(context, "lever-wrench", effect.element, edge.child);
-    if (wrench == kNoIndex) continue;
+    if (effect_block(context, kLeverWrench, effect.element, edge.child) == kNoIndex) continue;
     make_joint_effect(context, edge, effect, "constraint-lever", "force");
-    if (edge.parent == context.robot.root_frame) continue;
-    make_effect_wrench(context, effect, "lever-wrench-at-joint", edge.joint, edge.successor,
-                       edge.joint_frame);
-    make_effect_wrench(context, effect, "lever-wrench-at-predecessor", edge.joint, edge.successor,
-                       edge.parent);
     // Held joints pass it on as it is; the predecessor feels nothing else of this constraint.
-    context.board.put("lever-wrench", context.pair(effect.element, edge.parent),
-                      make_effect_wrench(context, effect, "lever-wrench-with", edge.joint,
-                                         edge.predecessor, edge.parent));
+    if (edge.parent != context.robot.root_frame)
+      configure_wrench_past_joint(context, edge, effect, kLeverWrench);
   }
 }
 
 void compute_lever(Context& context, const Visit& visit) {
   const JointEdge edge(context, visit);
   for (const Effect& effect : effects(context)) {
-    const auto block = [&](std::string_view slot) {
-      return effect_block(context, slot, effect.element, edge.joint);
-    };
-    const BlockIndex wrench = effect_block(context, "lever-wrench", effect.element, edge.child);
+    const BlockIndex wrench = effect_block(context, kLeverWrench, effect.element, edge.child);
     if (wrench == kNoIndex) continue;
-    context.closure("force-from-wrench-" + edge.kind, {wrench, block("constraint-lever")},
+    context.closure("force-from-wrench-" + edge.kind,
+                    {wrench, effect_block(context, "constraint-lever", effect.element, edge.joint)},
                     edge.joint);
-    if (edge.parent == context.robot.root_frame) continue;
-    context.closure(
-        "transform-wrench-to-proximal",
-        {context.block("pose-across-joint", edge.joint), wrench, block("lever-wrench-at-joint")},
-        edge.joint);
-    context.closure("transform-wrench-to-proximal",
-                    {context.block("placement", edge.joint), block("lever-wrench-at-joint"),
-                     block("lever-wrench-at-predecessor")},
-                    edge.joint);
-    context.closure("accumulate-wrench",
-                    {no_wrench(context, edge.parent, edge.predecessor),
-                     block("lever-wrench-at-predecessor"), block("lever-wrench-with")},
-                    edge.joint);
+    if (edge.parent != context.robot.root_frame)
+      compute_wrench_past_joint(context, edge, effect, kLeverWrench, wrench);
   }
 }
 

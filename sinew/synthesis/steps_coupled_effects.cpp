@@ -49,7 +49,8 @@ void configure_joint(Context& context, const Visit& visit) {
   for (const Effect& effect : of_groups(context)) {
     if (effect_block(context, kWrench, effect.element, edge.child) == kNoIndex) continue;
     make_joint_effect(context, edge, effect, "held-force", "force");
-    if (edge.parent != context.robot.root_frame) configure_wrench_past_joint(context, edge, effect);
+    if (edge.parent != context.robot.root_frame)
+      configure_wrench_past_joint(context, edge, effect, kEffectWrench);
   }
 }
 
@@ -61,7 +62,7 @@ void compute_joint(Context& context, const Visit& visit) {
     const BlockIndex force = effect_block(context, "held-force", effect.element, edge.joint);
     context.closure("force-from-wrench-" + edge.kind, {wrench, force}, edge.joint);
     if (edge.parent != context.robot.root_frame)
-      compute_wrench_past_joint(context, edge, effect, wrench);
+      compute_wrench_past_joint(context, edge, effect, kEffectWrench, wrench);
   }
 }
 

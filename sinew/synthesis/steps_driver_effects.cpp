@@ -44,7 +44,7 @@ void configure_joint(Context& context, const Visit& visit) {
     if (edge.parent == context.robot.root_frame) continue;
     make_effect_wrench(context, effect, "effect-wrench-released", edge.joint, edge.successor,
                        edge.child);
-    configure_wrench_past_joint(context, edge, effect);
+    configure_wrench_past_joint(context, edge, effect, kEffectWrench);
   }
 }
 
@@ -91,7 +91,8 @@ void compute_joint(Context& context, const Visit& visit) {
                     {wrench, context.block("unit-wrench", edge.joint), block("effect-acceleration"),
                      block("effect-wrench-released")},
                     edge.joint);
-    compute_wrench_past_joint(context, edge, effect, block("effect-wrench-released"));
+    compute_wrench_past_joint(context, edge, effect, kEffectWrench,
+                              block("effect-wrench-released"));
   }
 }
 
