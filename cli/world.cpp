@@ -207,6 +207,7 @@ int relations(LoadedScene& scene, const Asked& asked) {
     std::cout << explain(judgement) << "\n";
     return judgement.status == Status::kOk ? kOk : kFault;
   }
+  if (!asked.relation.empty()) relations.rule(asked.relation);  // refuses what is none
   graph::Store facts;
   const auto stated = state_facts(relations, space, facts, viewer_of(scene, asked));
   rdf::sparql::QueryOptions options;
@@ -228,6 +229,7 @@ int relations(LoadedScene& scene, const Asked& asked) {
     }
   }
   for (const std::string& rule : stated.left_out) {
+    if (!asked.relation.empty() && rule != asked.relation) continue;
     std::cerr << rule << ": left out, as nobody looks; name the frame of whoever does with "
               << "--viewer\n";
   }
@@ -394,7 +396,8 @@ const Verb kVerbs[] = {
        app.add_option("--relation", asked.relation, "Only this one");
        app.add_option("--judge", asked.judge,
                       "FIRST RELATION SECOND [THIRD]: whether it holds, and by which numbers")
-           ->expected(3, 4);
+           ->expected(3, 4)
+           ->option_text("TEXT x 3 or 4");
        app.add_flag("--why", asked.why, "With the numbers that make each true");
        add_in(app, asked);
      }},

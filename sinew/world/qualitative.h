@@ -102,9 +102,10 @@ class Relations {
   };
   Found find(Question question) const;
   const std::vector<Rule>& rules() const { return rules_; }
+  // The rule of a relation; throws Error where there is none.
+  const Rule& rule(std::string_view name) const;
 
  private:
-  const Rule& rule(std::string_view name) const;
   double maximum(const Condition& condition, BodyId second) const;
 
   const Space* space_;

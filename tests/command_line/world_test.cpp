@@ -73,6 +73,13 @@ TEST(WorldCommand, ListsAndExplainsQualitativeRelations) {
   const Result wrong = ask("relations", {"--judge", "hose_adaptor", "beneath", "workbench"});
   EXPECT_EQ(wrong.exit_code, 1);
   EXPECT_THAT(wrong.err, HasSubstr("no relation that a rule is declared for"));
+  // Asked for one alone, nothing is said of the others, and none is none.
+  const Result on = ask("relations", {"--relation", "on"});
+  EXPECT_THAT(on.out, Not(HasSubstr("reachable")));
+  EXPECT_THAT(on.err, Not(HasSubstr("left-of-as-seen")));
+  const Result misspelt = ask("relations", {"--relation", "onn"});
+  EXPECT_EQ(misspelt.exit_code, 1);
+  EXPECT_THAT(misspelt.err, HasSubstr("onn: is no relation that a rule is declared for; "));
 }
 
 TEST(WorldCommand, AsksTheModelsAndTheRelationsInOneQuery) {
