@@ -157,7 +157,7 @@ void check_order(const Terms& terms, const Algorithm& algorithm, Report& report)
 }  // namespace
 
 void check_block(const Terms& terms, const Block& block, Report& report) {
-  const auto error = [&](std::string what, std::string remedy) {
+  const auto error = [&](const std::string& what, std::string remedy) {
     report.error({}, text(terms, block.id), block.name + ": " + what, std::move(remedy));
   };
   const Quantity& quantity = *block.quantity;

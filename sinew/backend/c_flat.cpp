@@ -17,10 +17,11 @@ FieldList renamed(const std::string& name, std::initializer_list<const FlatBody*
     shorts.insert(shorts.end(), body->part_names.begin(), body->part_names.end());
   }
   for (const unsigned width : limb_widths) shorts.push_back("limbs" + std::to_string(width));
+  const std::string prefix = name + "_";
   FieldList list;
   for (const std::string& text : shorts) {
     Fields item;
-    item.text("identifier", name + "_" + text);
+    item.text("identifier", prefix + text);
     item.text("short", text);
     list.push_back(std::move(item));
   }
@@ -91,9 +92,9 @@ RenderedSource flat_source(const program::ScalarProgram& scalar,
     fields.text("sincos", render("c/sincos.c.mustache", fields));
   }
   Blocks blocks = {{"parts", &sample.parts}, {"lanes_parts", &block.parts}};
-  if (has_limbs) blocks.push_back({"limbs_body", &side_by_side.code});
-  blocks.push_back({"body", &sample.code});
-  blocks.push_back({"lanes_body", &block.code});
+  if (has_limbs) blocks.emplace_back("limbs_body", &side_by_side.code);
+  blocks.emplace_back("body", &sample.code);
+  blocks.emplace_back("lanes_body", &block.code);
   return render_with_blocks("c/flat.c.mustache", std::move(fields),
                             with_update(std::move(blocks), 2));
 }

@@ -68,7 +68,7 @@ void FlatEmitter::declare_kept() {
   line(fmt::format("{0}_ALIGNED {1} kept_numbers[{2}], *kept = kept_numbers + {3};", upper_,
                    scalar_, std::max(kept_.size, kNearNumbers), kNearNumbers));
   line(fmt::format("const {} *number;", scalar_));
-  pointers_.push_back("kept");
+  pointers_.emplace_back("kept");
   point_to("kept");
   new_constants();
 }

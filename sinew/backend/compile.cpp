@@ -139,7 +139,7 @@ LoadedCode compile_and_load(const GeneratedCode& code, const CompileOptions& opt
   command.insert(command.end(), options.flags.begin(), options.flags.end());
   command.insert(command.end(), {"-o", library, source});
   command.insert(command.end(), options.libraries.begin(), options.libraries.end());
-  command.push_back("-lm");
+  command.emplace_back("-lm");
   if (const int status = run(command, log); status != 0) {
     fail(fmt::format("the C compiler '{}' failed with status {}:\n{}", options.compiler, status,
                      read(log).substr(0, kMaximumMessage)),

@@ -92,7 +92,7 @@ JsonText& JsonText::value(double number) {
     text_ += "null";
     return *this;
   }
-  std::array<char, 32> digits;
+  std::array<char, 32> digits = {};
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
   const std::string_view shortest(digits.data(), static_cast<std::size_t>(end - digits.data()));
   text_ += shortest;

@@ -92,7 +92,7 @@ class StableArray {
     return std::size_t{1} << std::max(kFirstBits, top);
   }
   static T* at(std::uintptr_t base, std::uint32_t index) {
-    return reinterpret_cast<T*>(base + std::size_t{index} * sizeof(T));
+    return reinterpret_cast<T*>(base + std::size_t{index} * sizeof(T));  // NOLINT(*-int-to-ptr)
   }
   T* locate(std::uint32_t index) const {
     return at(bases_[top_bit(index | 1)].load(std::memory_order_acquire), index);

@@ -92,7 +92,7 @@ void sinew_unit_force_with_rotor(const double* D, const double* I, double* out) 
 void sinew_couple_mass_matrix(const double* const in[], int, double* M) {
   const double* const map = in[1];
   const int n = static_cast<int>(map[0]), m = static_cast<int>(map[1]);
-  couple_mass_matrix(in[0], map + 2, map + 2 + n * m, n, m, M);
+  couple_mass_matrix(in[0], map + 2, map + 2 + static_cast<std::size_t>(n) * m, n, m, M);
 }
 
 void sinew_couple_jacobian(const double* const in[], int, double* J) { couple(in, 6, J); }

@@ -26,19 +26,22 @@ void sum_of_products(S* const* arguments, Sizes sizes) {
 std::uint32_t size_of_first(Sizes sizes) { return sizes.front(); }
 std::uint32_t one_number(Sizes) { return 1; }
 
-// n from the n (n + 1) / 2 entries, n residuals and one tolerance; not more than the tables hold.
+// n (n + 1) / 2 entries, n residuals and one tolerance.
+std::size_t arguments_of(int constraints) {
+  const auto n = static_cast<std::size_t>(constraints);
+  return n * (n + 1) / 2 + n + 1;
+}
+
+// Not more than the tables hold.
 int constraints_of(std::size_t arguments) {
   int n = 1;
-  while (n < math::kMostConstraints &&
-         static_cast<std::size_t>(n * (n + 1) / 2 + n + 1) < arguments) {
-    ++n;
-  }
+  while (n < math::kMostConstraints && arguments_of(n) < arguments) ++n;
   return n;
 }
 
 std::uint32_t size_of_magnitudes(Sizes sizes) {
   const int n = constraints_of(sizes.size());
-  const bool fits = static_cast<std::size_t>(n * (n + 1) / 2 + n + 1) == sizes.size();
+  const bool fits = arguments_of(n) == sizes.size();
   return fits ? static_cast<std::uint32_t>(n) : 0;  // a size that no data block has
 }
 

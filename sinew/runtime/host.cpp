@@ -223,7 +223,7 @@ void Host::set(const std::string& name, const std::string& block, std::span<cons
   if (found == kNoBlock || std::find(points.begin(), points.end(), found) == points.end()) {
     std::string known;
     for (const std::uint32_t point : points) known += " " + storage.about(point).name;
-    fail("", "task '" + name + "' has no set-point '" + block + "'",
+    fail("", "task '" + name + "' has no set point '" + block + "'",
          known.empty() ? "it has none" : "it has" + known);
   }
   if (values.size() != storage.about(found).size)
@@ -249,8 +249,9 @@ void Host::set(const std::string& name, const std::string& block, std::span<cons
   task.given[found] = true;
 }
 
-SwapReport Host::swap(const std::string& name, std::unique_ptr<Executable> next,
-                      const SwapRules& rules) {
+// Not std::swap: it may throw.
+SwapReport Host::swap(const std::string& name,  // NOLINT(bugprone-exception-escape)
+                      std::unique_ptr<Executable> next, const SwapRules& rules) {
   if (state() == State::kIdle || state() == State::kFaulted)
     fail("", "a program can be swapped only while the host is configured or running", "");
   reclaim();

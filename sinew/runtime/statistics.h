@@ -23,7 +23,7 @@ class Histogram {
   Nanoseconds percentile(double share) const;
 
  private:
-  static constexpr std::size_t kBuckets = 64 * 16;
+  static constexpr std::size_t kBuckets = std::size_t{64} * 16;
   static std::size_t bucket(std::uint64_t duration);
   static std::uint64_t upper_bound(std::size_t bucket);
 

@@ -25,7 +25,7 @@ class Holder {
     if (names_all(held.of)) return;
     try {
       frame_ = find_frame(context.store, context.view, held.of);
-    } catch (const Error&) {
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch)
       // It is a joint, or nothing; what it is not is told where there is no block of it.
     }
   }

@@ -151,7 +151,7 @@ class Reader {
 
   // The expansions that steps share have names, so that they are run once for all.
   std::string expansion(Id node, bool required) {
-    const std::string own = text(node, "expansion", required);
+    std::string own = text(node, "expansion", required);
     if (own.empty()) return own;
     if (own == "across-joints") return std::string(kAcrossJoints);
     if (own == "to-asked-frames") return std::string(kToAskedFrames);

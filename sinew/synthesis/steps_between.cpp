@@ -229,7 +229,7 @@ void make_analytic_jacobian(Context& context, const Relation& relation) {
            pose_output(relation, "analytic-jacobian", "analytic-jacobian"), 7, relation.of);
 }
 
-Step between_step(std::string quantity, std::string gives, std::string purpose,
+Step between_step(const std::string& quantity, const std::string& gives, std::string purpose,
                   std::vector<std::string> needs, std::vector<std::string> may_use,
                   void (*make)(Context&, const Relation&)) {
   needs.insert(needs.begin(), {"placement", "pose-across-joint"});

@@ -245,8 +245,8 @@ Step once(std::string name, std::string purpose, std::vector<std::string> needs,
 
 Step control_step(const Control& control) {
   std::vector<std::string> gives = {"control"};
-  if (control.accelerations) gives.push_back("acceleration");
-  if (control.constraints) gives.push_back("acceleration-energy");
+  if (control.accelerations) gives.emplace_back("acceleration");
+  if (control.constraints) gives.emplace_back("acceleration-energy");
   return once("control", "the task's monitors and controllers work on what is measured",
               control.needs, std::move(gives), compute_control);
 }
@@ -273,8 +273,8 @@ Step command_step() {
 
 Step distribution_step(const Control& control) {
   std::vector<std::string> needs = {"control"};
-  if (control.has_wrenches()) needs.push_back("jacobian");
-  if (carries_weight(control)) needs.push_back("gravity-force");
+  if (control.has_wrenches()) needs.emplace_back("jacobian");
+  if (carries_weight(control)) needs.emplace_back("gravity-force");
   return once("distribution", "the Jacobian's transpose turns the task's wrenches to joint forces",
               std::move(needs), {control.forces ? "force" : "control-force"}, compute_distribution);
 }
@@ -326,7 +326,7 @@ void decide(Control& control, const AskedForces& asked, std::span<const std::str
   if (control.drives != Drives::kDistribution) return;
   for (const task::Driver& driver : task.solver->cartesian_forces) {
     const auto place = control.places.find(driver.quantity);
-    if (place != control.places.end()) control.frames.push_back({"jacobian", place->second.frame});
+    if (place != control.places.end()) control.frames.emplace_back("jacobian", place->second.frame);
   }
 }
 

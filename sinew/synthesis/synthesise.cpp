@@ -52,7 +52,7 @@ std::array<double, 3> gravity(const graph::View& view, const Robot& robot, const
     const std::vector<double> a = coordinate_numbers(view, robot.base_acceleration);
     return {-a.at(3), -a.at(4), -a.at(5)};
   }
-  notes.push_back("no gravity in the model and none in the query: it is zero");
+  notes.emplace_back("no gravity in the model and none in the query: it is zero");
   return {0, 0, 0};
 }
 

@@ -222,6 +222,7 @@ class LinkedCode {
   Function find(const char* name) const {
     LLVMOrcExecutorAddress address = 0;
     check(LLVMOrcLLJITLookup(jit_, &address, name));
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): LLVM gives the address as a number.
     return reinterpret_cast<Function>(address);
   }
 

@@ -76,7 +76,7 @@ using Matrix = std::vector<Ref>;
 
 struct Task {
   std::span<const std::uint32_t> rows, columns;
-  std::uint32_t original_nodes;     // nodes of the value; those of the derivative come after
+  std::uint32_t original_nodes;  // nodes of the value; those of the derivative come after
   const std::vector<std::uint8_t>& needed;  // nodes that some row depends on
 };
 

@@ -200,7 +200,7 @@ Limbs find_limbs(const Program& program) {
     // The schedule's order among equals.
     std::vector<std::pair<Colour, std::uint32_t>> keyed;
     for (std::uint32_t at = 0; at < closures.size(); ++at)
-      keyed.push_back({colour[closures[at]], at});
+      keyed.emplace_back(colour[closures[at]], at);
     std::sort(keyed.begin(), keyed.end());
     const std::vector<std::uint32_t> scheduled = std::exchange(closures, {});
     for (const auto& [unused, at] : keyed) closures.push_back(scheduled[at]);

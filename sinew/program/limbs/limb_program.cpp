@@ -120,7 +120,7 @@ class Recorder {
     for (std::uint32_t u = 0; u < units_.size(); ++u) visit(u, visit);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> levels;  // and place in `order`
     for (std::uint32_t at = 0; at < order.size(); ++at) {
-      levels.push_back({units_[order[at]].level, at});
+      levels.emplace_back(units_[order[at]].level, at);
     }
     std::sort(levels.begin(), levels.end());
     std::vector<Unit> sorted;

@@ -79,9 +79,9 @@ struct Pooled {
   void deallocate(T* block, std::size_t n) {
     const std::size_t bytes = n * sizeof(T);
     if (bytes <= Pool::kLargest) {
-      Pool::of_thread().free(block, bytes);
+      Pool::of_thread().free(static_cast<void*>(block), bytes);
     } else {
-      ::operator delete(block);
+      ::operator delete(static_cast<void*>(block));
     }
   }
   bool operator==(const Pooled&) const { return true; }

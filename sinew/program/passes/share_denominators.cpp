@@ -4,6 +4,7 @@
 
 namespace sinew::program {
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): all passes are called alike.
 Computation share_denominators(Computation computation) {
   const Dag& dag = computation.dag;
   const std::vector<std::uint8_t> live = live_nodes(computation);

@@ -33,8 +33,8 @@ void TermTable::grow(json::Arena& arena) {
   Entry* entries = arena.allocate<Entry>(capacity_);
   std::copy_n(entries_, size_, entries);
   entries_ = entries;
-  slots_ = arena.allocate<std::uint32_t>(capacity_ * 4);
-  std::memset(slots_, 0, capacity_ * 4 * sizeof(std::uint32_t));
+  slots_ = arena.allocate<std::uint32_t>(std::size_t{capacity_} * 4);
+  std::memset(slots_, 0, std::size_t{capacity_} * 4 * sizeof(std::uint32_t));
   for (std::uint32_t i = 0; i < size_; ++i) *slot(entries_[i].term) = i + 1;
 }
 
@@ -56,8 +56,8 @@ TermTable TermTable::clone(json::Arena& arena) const {
   result.capacity_ = capacity_;
   result.entries_ = arena.allocate<Entry>(capacity_);
   std::copy_n(entries_, size_, result.entries_);
-  result.slots_ = arena.allocate<std::uint32_t>(capacity_ * 4);
-  std::copy_n(slots_, capacity_ * 4, result.slots_);
+  result.slots_ = arena.allocate<std::uint32_t>(std::size_t{capacity_} * 4);
+  std::copy_n(slots_, std::size_t{capacity_} * 4, result.slots_);
   return result;
 }
 

@@ -17,7 +17,8 @@ std::string_view expand_iri(const Context& context, std::string_view text, IriUs
 std::size_t ContextProcessor::KeyHash::operator()(const Key& key) const {
   const std::size_t active = reinterpret_cast<std::size_t>(key.active);
   const std::size_t local = reinterpret_cast<std::size_t>(key.local);
-  return (active * 0x9E3779B97F4A7C15ull ^ local) * 4 + key.override_protected * 2 + key.propagate;
+  return (active * 0x9E3779B97F4A7C15ull ^ local) * 4 + (key.override_protected ? 2 : 0) +
+         (key.propagate ? 1 : 0);
 }
 
 const Context* ContextProcessor::initial(std::string_view base) {

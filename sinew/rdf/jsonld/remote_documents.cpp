@@ -32,7 +32,7 @@ std::string undo_percent_encoding(std::string_view text) {
 std::string remedy_for_unknown(std::string_view url, const catalogue::Catalogue& catalogue) {
   Nearest nearest(url);
   for (const auto& [iri, document] : catalogue.documents()) nearest.offer(iri);
-  const std::string directory = "give the directory that holds it with --catalog DIR";
+  std::string directory = "give the directory that holds it with --catalog DIR";
   if (nearest.found().empty()) return directory;
   return fmt::format("did you mean {}? Otherwise {}", nearest.found(), directory);
 }
