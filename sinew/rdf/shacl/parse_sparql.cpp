@@ -114,8 +114,8 @@ bool ShapeParser::prepare(Id holder, Id property, const Shape& shape, SparqlChec
   for (const std::string_view each : prebound) {
     if (each != "shapesGraph" && each != "currentShape") returned.push_back(each);
   }
-  prebound.push_back("shapesGraph");
-  prebound.push_back("currentShape");
+  prebound.emplace_back("shapesGraph");
+  prebound.emplace_back("currentShape");
   try {
     std::string text = prologue(holder) + std::string(terms().text(texts[0]));
     sparql::syntax::ParseOptions options;

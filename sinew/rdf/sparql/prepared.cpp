@@ -38,7 +38,7 @@ struct PlanPool {
       eval::Evaluator* empty = nullptr;
       if (spare.compare_exchange_strong(empty, evaluator.get(), std::memory_order_release,
                                         std::memory_order_relaxed)) {
-        evaluator.release();
+        static_cast<void>(evaluator.release());  // `spares` owns it now
         return;
       }
     }
