@@ -32,7 +32,7 @@ class RegisterPlanner {
  private:
   // `visit(value)` for each read, and for each definition, of a step.
   template <typename Visit>
-  void for_each(const std::vector<std::uint32_t>& list, std::size_t RegisterSteps::End::* end,
+  void for_each(const std::vector<std::uint32_t>& list, std::size_t RegisterSteps::End::*end,
                 std::size_t step, Visit visit) const {
     const std::size_t first = step == 0 ? 0 : steps_.ends_[step - 1].*end;
     for (std::size_t k = first; k < steps_.ends_[step].*end; ++k) visit(list[k]);
