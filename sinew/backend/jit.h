@@ -22,7 +22,7 @@
 namespace sinew::backend {
 
 enum class JitLevel : std::uint8_t {
-  kFast,  // the first call in two thirds of the time; code that takes a third longer
+  kFast,  // the first call sooner; batches take up to twice as long, single calls do not
   kFull,  // the fastest code
 };
 
