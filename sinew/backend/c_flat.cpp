@@ -10,9 +10,9 @@ namespace {
 // Everything that is defined once for each kind of processor.
 FieldList renamed(const std::string& name, std::initializer_list<const FlatBody*> bodies,
                   const std::vector<unsigned>& limb_widths) {
-  std::vector<std::string> shorts = {"lanes",  "angles", "floats",        "bits",
-                                     "sincos", "far",    "sincos_all",    "squares",
-                                     "sample", "block",  "update_numbers"};
+  std::vector<std::string> shorts = {"lanes",        "angles", "floats",  "bits",
+                                     "sincos",       "far",    "any_far", "sincos_all",
+                                     "sincos_table", "sample", "block",   "update_numbers"};
   for (const FlatBody* body : bodies) {
     shorts.insert(shorts.end(), body->part_names.begin(), body->part_names.end());
   }

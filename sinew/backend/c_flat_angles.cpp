@@ -19,15 +19,15 @@ void FlatEmitter::angles(const AngleGroup& group) {
   const std::string tag = result_.angles == 0 ? "" : fmt::format("_{}", result_.angles);
   for (const char* array : {"angle", "sine", "cosine"}) given_.take(array + tag);
   const std::string lanes = block_form_ ? fmt::format("{} * {}_LANES", n, upper_) : "";
-  line(fmt::format("{2}_ALIGNED {3} sine{0}[{1}], cosine{0}[{1}];", tag,
-                   block_form_ ? lanes : std::to_string(padded), upper_, scalar_));
+  const bool together = stages_ && padded <= kNearNumbers;
+  if (together) {
+    line(fmt::format("{2}_ALIGNED {3} sine{0}[{4}], *cosine{0} = sine{0} + {1};", tag, padded,
+                     upper_, scalar_, 2 * padded));
+  } else {
+    line(fmt::format("{2}_ALIGNED {3} sine{0}[{1}], cosine{0}[{1}];", tag,
+                     block_form_ ? lanes : std::to_string(padded), upper_, scalar_));
+  }
   std::string from;
-  const auto each = [&](auto text) {
-    std::string sum;
-    for (std::size_t k = 0; k < n; ++k) sum += (k == 0 ? "" : " + ") + text(k);
-    return sum;
-  };
-  std::string squares;
   if (block_form_) {
     line(fmt::format("{}_ALIGNED {} angle{}[{}];", upper_, scalar_, tag, lanes));
     for (std::size_t k = 0; k < n; ++k) {
@@ -41,12 +41,10 @@ void FlatEmitter::angles(const AngleGroup& group) {
       }
     }
     from = "angle" + tag;
-    squares = fmt::format("{}_squares({}, {})", prefix_, from, lanes);
   } else if (contiguous(group, padded)) {
     const std::uint32_t first = layout_.inputs[dag_.node(group.angles[0]).index].index;
     touched_.insert("in");
     from = fmt::format("in + {}", first);
-    squares = each([&](std::size_t k) { return fmt::format("in[{0}] * in[{0}]", first + k); });
   } else {
     std::string list;
     for (const std::uint32_t angle : group.angles)
@@ -54,33 +52,44 @@ void FlatEmitter::angles(const AngleGroup& group) {
     line(fmt::format("{}_ALIGNED const {} angle{}[{}] = {{ {} }};", upper_, scalar_, tag, padded,
                      list));
     from = "angle" + tag;
-    squares = each([&](std::size_t k) { return fmt::format("{0}[{1}] * {0}[{1}]", from, k); });
   }
   line(fmt::format("{}_sincos_all({}, sine{}, cosine{}, {}, {});", prefix_, from, tag, tag,
-                   block_form_ ? lanes : std::to_string(n), squares));
+                   block_form_ ? lanes : std::to_string(n), block_form_ ? 0 : 1));
   std::string sines = "sine" + tag, cosines = "cosine" + tag;
+  int first_sine = 0;
   if (stages_) {
-    line(fmt::format("const {0} *sines{1} = sine{1}, *cosines{1} = cosine{1};", scalar_, tag));
-    sines = "sines" + tag;
+    line(fmt::format("const {0} *cosines{1} = cosine{1};", scalar_, tag));
     cosines = "cosines" + tag;
-    for (const std::string& array : {sines, cosines}) {
-      given_.take(array);
-      pointers_.push_back(array);
-      point_to(array);
+    pointers_.push_back(cosines);
+    if (together) {
+      sines = cosines;
+      first_sine = -static_cast<int>(padded);
+    } else {
+      line(fmt::format("const {0} *sines{1} = sine{1};", scalar_, tag));
+      sines = "sines" + tag;
+      pointers_.push_back(sines);
+      point_to(sines);
     }
+    point_to(cosines);
+    given_.take(sines);
+    given_.take(cosines);
   }
   for (std::size_t k = 0; k < n; ++k) {
     const Node& node = dag_.node(group.angles[k]);
     const std::string angle =
         node.op == Op::kInput ? layout_.input_names[node.index] : names_[group.angles[k]];
-    take(group.sines[k], "sin_" + angle, sines, k);
-    take(group.cosines[k], "cos_" + angle, cosines, k);
+    take(group.sines[k], "sin_" + angle, sines, first_sine + static_cast<int>(k));
+    take(group.cosines[k], "cos_" + angle, cosines, static_cast<int>(k));
   }
   result_.angles += n;
 }
 
 bool FlatEmitter::is_held(const Node& node) const {
   return node.op == Op::kInput && std::string_view(layout_.inputs[node.index].array) == "held";
+}
+
+bool FlatEmitter::is_state(const Node& node) const {
+  return std::string_view(layout_.inputs[node.index].array) == "state";
 }
 
 // Whether the angles are neighbours in `in`, with others behind them up to the padded size.
@@ -121,7 +130,7 @@ void FlatEmitter::angles_one_by_one(const AngleGroup& group) {
 }
 
 void FlatEmitter::take(std::uint32_t node, const std::string& name, const std::string& array,
-                       std::size_t k) {
+                       int k) {
   if (node == AngleGroup::kNone) return;
   if (stages_) {  // read where it is used
     in_memory_[node] = {name, fmt::format("{}[{}]", array, k)};

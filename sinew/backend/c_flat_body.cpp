@@ -49,12 +49,18 @@ FlatBody FlatEmitter::run() {
   find_results();
   const AngleGroups groups = group_angles(computation_);
   plan_stages(groups);
+  // Pointers that live while sines are computed would need registers that a call preserves.
+  const bool only_inputs =
+      std::all_of(groups.groups.begin(), groups.groups.end(),
+                  [](const AngleGroup& group) { return group.before.empty(); });
+  if (stages_ && !only_inputs) declare_kept();
   for (const AngleGroup& group : groups.groups) {
     for (const std::uint32_t node : group.before) emit(node);
     begin_step();
     angles(group);
     end_step();
   }
+  if (stages_ && only_inputs) declare_kept();
   std::vector<std::uint32_t> before;
   for (std::uint32_t i = 0; i < names_.size(); ++i) {
     if (!names_[i].empty() && dag_.node(i).op != Op::kInput) before.push_back(i);
@@ -86,6 +92,9 @@ std::string FlatEmitter::element(const FlatPlace& place) {
   const bool stride = strided() && std::string_view(place.array) != "held";
   touched_.insert(place.array);
   if (stride) touched_.insert("n");
+  if (middle_of_inputs_ > 0 && std::string_view(place.array) == "in") {
+    return fmt::format("inputs[{}]", static_cast<int>(place.index) - middle_of_inputs_);
+  }
   return fmt::format("{}[{}{}]", place.array, place.index, stride ? " * n" : "");
 }
 
@@ -110,11 +119,16 @@ void FlatEmitter::declare(std::string_view type, std::string_view name, std::str
 const std::string& FlatEmitter::value(std::uint32_t i) {
   const Node& node = dag_.node(i);
   if (node.op == Op::kConstant) {
-    if (constants_[i].empty()) constants_[i] = stages_ ? constant(i) : number(node.value);
+    if (stages_) {
+      constants_[i] = constant(node.value);
+    } else if (constants_[i].empty()) {
+      constants_[i] = number(node.value);
+    }
     return constants_[i];
   }
   if (names_[i].empty()) {
     if (node.op == Op::kInput) {
+      if (stages_ && !is_state(node)) return input_again(i, node);
       read_input(i, node);
     } else if (stages_) {
       read_again(i);

@@ -61,8 +61,9 @@ class FlatEmitter {
   // Sines and cosines.
   void angles(const AngleGroup& group);
   void angles_one_by_one(const AngleGroup& group);
-  void take(std::uint32_t node, const std::string& name, const std::string& array, std::size_t k);
+  void take(std::uint32_t node, const std::string& name, const std::string& array, int k);
   bool is_held(const Node& node) const;
+  bool is_state(const Node& node) const;
   bool contiguous(const AngleGroup& group, std::size_t padded) const;
 
   // Functions that a very long program is divided into.
@@ -78,7 +79,8 @@ class FlatEmitter {
   void end_step();
   void point_to(const std::string& pointer);
   void new_constants();
-  std::string constant(std::uint32_t node);
+  std::string constant(double value);
+  const std::string& input_again(std::uint32_t i, const Node& node);
   void wait_in_memory(std::uint32_t node);
   void read_again(std::uint32_t node);
   bool rounds_product(std::uint32_t node) const;
@@ -109,11 +111,12 @@ class FlatEmitter {
   bool stages_ = false;
   KeptValues kept_;
   std::uint32_t step_ = 0;
+  int middle_of_inputs_ = 0;  // where `inputs` points to; 0: there is no such pointer
   std::unordered_map<std::uint32_t, InMemory> in_memory_;  // nodes that can be read again
   std::vector<std::uint32_t> named_;                       // nodes read from memory in this stage
   std::vector<std::string> pointers_;                      // to the arrays that they lie in
   std::vector<std::string> table_;                         // constants, in the order of their use
-  std::vector<std::uint32_t> window_;                      // those that `number` points to now
+  std::size_t window_ = 0;                                 // those that `number` points to now
 
   CNames given_ = {"in",   "out",    "state",   "held",    "n",       "kept",   "angle",
                    "sine", "cosine", "lane",    "zero",    "result",  "y",      "a",

@@ -21,25 +21,24 @@ bool is_trigonometric(const Node& node) { return node.op == Op::kSin || node.op 
 
 // Nodes of the present region that are the sine and the cosine of this one. Those of the caller's
 // angles are read where they are used.
-void LimbEmitter::take_sines(std::uint32_t angle, const std::string& sines,
-                             const std::string& cosines, int offset) {
+void LimbEmitter::take_sines(std::uint32_t angle, const Numbers& sines, const Numbers& cosines,
+                             bool again) {
   for (std::uint32_t i = 0; i < dag().size(); ++i) {
     const Node& node = dag().node(i);
     if (!live_[at_][i] || !is_trigonometric(node) || node.a.node() != angle) continue;
-    const std::string& array = node.op == Op::kSin ? sines : cosines;
+    const auto& [array, at] = node.op == Op::kSin ? sines : cosines;
     const char* base = node.op == Op::kSin ? "sine_of" : "cosine_of";
-    if (sines == "sines") {
-      in_memory_[nodes_.of(at_, i)] = {base, array, offset};
+    if (again) {
+      in_memory_[nodes_.of(at_, i)] = {base, array, at};
       continue;
     }
     const std::string name = given_.unique(base);
     names_[at_][i] = name;
     if (in_lanes()) {
-      line(
-          fmt::format("{0} {1}; memcpy(&{1}, {2} + {3}, sizeof {1});", type(), name, array, offset),
-          node.origin);
+      line(fmt::format("{0} {1}; memcpy(&{1}, {2} + {3}, sizeof {1});", type(), name, array, at),
+           node.origin);
     } else {
-      line(fmt::format("const {} {} = {}[{}];", scalar_, name, array, offset), node.origin);
+      line(fmt::format("const {} {} = {}[{}];", scalar_, name, array, at), node.origin);
     }
   }
 }
@@ -56,14 +55,10 @@ void LimbEmitter::sine_of(std::uint32_t angle) {
     line(fmt::format("angle{}[0] = {};", tag, from));
   }
   const unsigned count = width_of(region().lanes);
-  std::string squares;
-  for (unsigned k = 0; k < count; ++k) {
-    squares += fmt::format("{0}angle{1}[{2}] * angle{1}[{2}]", k == 0 ? "" : " + ", tag, k);
-  }
-  line(fmt::format("{0}_sincos_all(angle{1}, sine{1}, cosine{1}, {2}, {3});", options_.name, tag,
-                   count, squares));
+  line(fmt::format("{0}_sincos_all(angle{1}, sine{1}, cosine{1}, {2}, 1);", options_.name, tag,
+                   count));
   body_.angles += count;
-  take_sines(angle, "sine" + tag, "cosine" + tag, 0);
+  take_sines(angle, {"sine" + tag, 0}, {"cosine" + tag, 0}, false);
 }
 
 // All angles that the caller hands over, the lanes of a vector side by side.
@@ -96,28 +91,39 @@ void LimbEmitter::sines_of_inputs() {
   }
   if (angles.empty()) return;
   const std::size_t padded = (angles.size() + kWidest - 1) / kWidest * kWidest;
-  std::string list, squares;
-  for (std::size_t k = 0; k < angles.size(); ++k) {
-    list += (k == 0 ? "" : ", ") + angles[k];
-    squares += fmt::format("{0}angle[{1}] * angle[{1}]", k == 0 ? "" : " + ", k);
-  }
+  std::string list;
+  for (const std::string& angle : angles) list += (list.empty() ? "" : ", ") + angle;
   line(fmt::format("{}_ALIGNED const {} angle[{}] = {{ {} }};", upper_, scalar_, padded, list));
-  line(fmt::format("{}_ALIGNED {} sine[{}], cosine[{}];", upper_, scalar_, padded, padded));
-  line(fmt::format("{}_sincos_all(angle, sine, cosine, {}, {});", options_.name, angles.size(),
-                   squares));
-  body_.angles += angles.size();
   const bool again = kept_.any();
-  const int middle = again && angles.size() > kNearNumbers ? int{kNearNumbers} : 0;
+  const int size = static_cast<int>(padded);
+  const bool together = again && padded <= kNearNumbers;
+  if (together) {
+    line(fmt::format("{}_ALIGNED {} sine[{}], *cosine = sine + {};", upper_, scalar_, 2 * size,
+                     size));
+  } else {
+    line(fmt::format("{}_ALIGNED {} sine[{}], cosine[{}];", upper_, scalar_, size, size));
+  }
+  line(fmt::format("{}_sincos_all(angle, sine, cosine, {}, 1);", options_.name, angles.size()));
+  body_.angles += angles.size();
+  std::string sines = "sine", cosines = "cosine";
+  int first_sine = 0, first_cosine = 0;
   if (again) {
-    sines_in_memory_ = true;
-    line(fmt::format("const {0} *sines = sine + {1}, *cosines = cosine + {1};", scalar_, middle));
-    point_to("sines");
-    point_to("cosines");
+    cosines = "cosines";
+    sines = together ? cosines : "sines";
+    first_sine = together ? -size : -int{kNearNumbers};
+    first_cosine = together ? 0 : -int{kNearNumbers};
+    line(fmt::format("const {} *cosines = cosine + {};", scalar_, -first_cosine));
+    pointers_.push_back(cosines);
+    if (!together) {
+      line(fmt::format("const {} *sines = sine + {};", scalar_, -first_sine));
+      pointers_.push_back(sines);
+    }
+    for (const std::string& pointer : pointers_) point_to(pointer);
   }
   for (const Place& place : places) {
     at_ = place.region;
-    take_sines(place.angle, again ? "sines" : "sine", again ? "cosines" : "cosine",
-               static_cast<int>(place.offset) - middle);
+    const int offset = static_cast<int>(place.offset);
+    take_sines(place.angle, {sines, first_sine + offset}, {cosines, first_cosine + offset}, again);
   }
 }
 

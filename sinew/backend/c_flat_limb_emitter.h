@@ -62,14 +62,17 @@ class LimbEmitter {
   std::size_t zeros_from(std::size_t at) const;
 
   // Sines and cosines.
-  void take_sines(std::uint32_t angle, const std::string& sines, const std::string& cosines,
-                  int offset);
+  struct Numbers {  // of an array, from this one on
+    std::string array;
+    int at;
+  };
+  void take_sines(std::uint32_t angle, const Numbers& sines, const Numbers& cosines, bool again);
   void sine_of(std::uint32_t angle);
   void sines_of_inputs();
 
   // Values that wait in memory (c_flat_limb_memory.cpp).
   void declare_kept();
-  void point_to(const char* pointer);
+  void point_to(const std::string& pointer);
   void begin_step();
   void end_step();
   void wait_in_memory(std::uint32_t node);
@@ -96,13 +99,13 @@ class LimbEmitter {
   LimbNodes nodes_;
   KeptValues kept_;  // empty where no value need wait
   std::size_t step_ = 0;
-  bool sines_in_memory_ = false;
+  std::vector<std::string> pointers_;  // to what waits there, and to sines
   std::unordered_map<std::uint32_t, InMemory> in_memory_;
   std::unordered_map<std::uint32_t, std::string*> waiting_;   // names of values that are kept
   std::vector<std::pair<std::size_t, std::uint32_t>> named_;  // read in this stage
 
   std::map<unsigned, std::string> zeros_;  // by width: a vector of zeros
-  CNames given_ = {"in", "out", "angle", "sine", "cosine"};
+  CNames given_ = {"in", "out", "angle", "sine", "cosine", "sines", "cosines"};
   LimbBody body_;
 };
 

@@ -19,25 +19,27 @@ std::string offset(const std::string& array, int place) {
 }  // namespace
 
 void LimbEmitter::declare_kept() {
-  for (const char* name : {"kept", "kept_numbers", "sines", "cosines"}) given_.take(name);
-  line(fmt::format("{0}_ALIGNED {1} kept_numbers[{2}], *kept = kept_numbers + {3};", upper_,
-                   scalar_, std::max(kept_.size, kNearNumbers), kNearNumbers));
-  point_to("kept");
+  given_.take("kept_numbers");
+  line(fmt::format("{}_ALIGNED {} kept_numbers[{}];", upper_, scalar_, kept_numbers(kept_.size)));
+  std::uint32_t middle = kNearNumbers;
+  for (const std::string& pointer : kept_pointers(kept_.size)) {
+    given_.take(pointer);
+    pointers_.push_back(pointer);
+    line(fmt::format("{} *{} = kept_numbers + {};", scalar_, pointer, middle));
+    middle += 2 * kNearNumbers;
+    point_to(pointer);
+  }
 }
 
 // From here on a compiler cannot know what the pointer points to.
-void LimbEmitter::point_to(const char* pointer) {
+void LimbEmitter::point_to(const std::string& pointer) {
   line(fmt::format("{}_AGAIN({});", upper_, pointer));
 }
 
 void LimbEmitter::begin_step() {
   if (!kept_.any() || step_ == 0 || step_ % kStage != 0) return;
   body_.code.add("");
-  point_to("kept");
-  if (sines_in_memory_) {
-    point_to("sines");
-    point_to("cosines");
-  }
+  for (const std::string& pointer : pointers_) point_to(pointer);
   for (const auto& [region, node] : named_) names_[region][node].clear();
   named_.clear();
 }
@@ -53,13 +55,15 @@ void LimbEmitter::wait_in_memory(std::uint32_t node) {
   const std::uint32_t value = nodes_.of(at_, node);
   if (!kept_.any() || kept_.slot[value] == KeptValues::kNoSlot) return;
   const std::string& name = names_[at_][node];
-  const int place = static_cast<int>(kept_.slot[value]) - int{kNearNumbers};
+  const KeptPlace place = kept_place(kept_.slot[value]);
   if (in_lanes()) {
-    body_.code.add({"  memcpy(", offset("kept", place), ", &", name, ", sizeof ", name, ");"});
+    body_.code.add(
+        {"  memcpy(", offset(place.pointer, place.offset), ", &", name, ", sizeof ", name, ");"});
   } else {
-    body_.code.add({"  KEPT(", std::to_string(place), ") = ", name, ";"});
+    body_.code.add(
+        {"  KEPT(", place.pointer, ", ", std::to_string(place.offset), ") = ", name, ";"});
   }
-  in_memory_[value] = {name, "kept", place};
+  in_memory_[value] = {name, place.pointer, place.offset};
   waiting_[value] = &names_[at_][node];
 }
 

@@ -55,8 +55,8 @@ LimbBody LimbEmitter::run() {
     orders.push_back(limb_order(program_.regions[k], live_[k]));
   }
   kept_ = keep_values(limb_steps(program_, nodes_, orders, later_));
-  if (kept_.any()) declare_kept();
   sines_of_inputs();
+  if (kept_.any()) declare_kept();
   for (at_ = 0; at_ < program_.regions.size(); ++at_) {
     for (const std::uint32_t i : orders[at_]) {
       begin_step();

@@ -22,6 +22,9 @@ namespace {
 // Constants that one pointer reaches, half of them to either side. A node uses four at most.
 constexpr std::size_t kWindow = 2 * kNearNumbers - 4;
 
+// Fewer nodes use too few constants to make up for the pointer to their table.
+constexpr std::size_t kLeastInStages = 60;
+
 }  // namespace
 
 // The steps are those of run(): one for each node, one for each group of angles, and the end.
@@ -59,17 +62,29 @@ void FlatEmitter::plan_stages(const AngleGroups& groups) {
   for (const std::uint32_t k : later_) read(computation_.results[k]);
   steps.end();
   kept_ = keep_values(steps);
-  stages_ = kept_.any() && !block_form_;
-  if (stages_) declare_kept();
+  stages_ = !block_form_ && (kept_.any() || groups.after.size() >= kLeastInStages);
 }
 
 void FlatEmitter::declare_kept() {
   for (const char* name : {"kept_numbers", "number"}) given_.take(name);
-  line(fmt::format("{0}_ALIGNED {1} kept_numbers[{2}], *kept = kept_numbers + {3};", upper_,
-                   scalar_, std::max(kept_.size, kNearNumbers), kNearNumbers));
+  if (kept_.any())
+    line(fmt::format("{}_ALIGNED {} kept_numbers[{}];", upper_, scalar_, kept_numbers(kept_.size)));
+  std::uint32_t middle = kNearNumbers;
+  for (const std::string& pointer : kept_pointers(kept_.size)) {
+    given_.take(pointer);
+    pointers_.push_back(pointer);
+    line(fmt::format("{} *{} = kept_numbers + {};", scalar_, pointer, middle));
+    middle += 2 * kNearNumbers;
+    point_to(pointer);
+  }
+  if (layout_.in_size > kNearNumbers) {
+    given_.take("inputs");
+    touched_.insert("in");
+    middle_of_inputs_ = kNearNumbers;
+    line(fmt::format("const {} *inputs = in + {};", scalar_, middle_of_inputs_));
+    point_to("inputs");
+  }
   line(fmt::format("const {} *number;", scalar_));
-  pointers_.emplace_back("kept");
-  point_to("kept");
   new_constants();
 }
 
@@ -86,7 +101,7 @@ void FlatEmitter::begin_step() {
     for (const std::uint32_t node : named_) names_[node].clear();
     named_.clear();
   }
-  if (window_.size() >= kWindow) new_constants();
+  if (window_ >= kWindow) new_constants();
 }
 
 void FlatEmitter::end_step() {
@@ -96,29 +111,35 @@ void FlatEmitter::end_step() {
 }
 
 void FlatEmitter::new_constants() {
-  for (const std::uint32_t node : window_) constants_[node].clear();
-  window_.clear();
+  window_ = 0;
   line(fmt::format("number = {}_{}_table + {};", prefix_, options_.of,
                    table_.size() + kNearNumbers));
   point_to("number");
 }
 
-std::string FlatEmitter::constant(std::uint32_t node) {
-  const double value = dag_.node(node).value;
+// Each use has a place of its own: what two uses share, a compiler reads into a register first, by
+// an instruction that is longer than the addresses in both of theirs.
+std::string FlatEmitter::constant(double value) {
   std::string text = number(value);
   if (value == 2.0) return text;  // a sum
-  const int place = static_cast<int>(window_.size()) - int{kNearNumbers};
-  window_.push_back(node);
+  const int place = static_cast<int>(window_++) - int{kNearNumbers};
   table_.push_back(text);
   return fmt::format("NUMBER({}, {})", place, text);
+}
+
+// Inputs are memory operands wherever they are used; states, which are written too, are not.
+const std::string& FlatEmitter::input_again(std::uint32_t i, const Node& node) {
+  std::string& place = in_memory_[i].place;
+  if (place.empty()) place = element(layout_.inputs[node.index]);
+  return place;
 }
 
 // Writes a value that has just been computed where it will be read.
 void FlatEmitter::wait_in_memory(std::uint32_t node) {
   if (!stages_ || kept_.slot[node] == KeptValues::kNoSlot) return;
-  const int place = static_cast<int>(kept_.slot[node]) - int{kNearNumbers};
-  line(fmt::format("KEPT({}) = {};", place, names_[node]));
-  in_memory_[node] = {names_[node], fmt::format("kept[{}]", place)};
+  const auto [pointer, offset] = kept_place(kept_.slot[node]);
+  line(fmt::format("KEPT({}, {}) = {};", pointer, offset, names_[node]));
+  in_memory_[node] = {names_[node], fmt::format("{}[{}]", pointer, offset)};
 }
 
 void FlatEmitter::read_again(std::uint32_t node) {
@@ -137,7 +158,7 @@ bool FlatEmitter::rounds_product(std::uint32_t node) const {
 
 void FlatEmitter::declare_constants() {
   // Pointers may not leave the table.
-  const std::size_t least = table_.size() - window_.size() + kNearNumbers;
+  const std::size_t least = table_.size() - window_ + kNearNumbers;
   if (table_.size() < least) table_.resize(least, "0");
   const std::string table = options_.of + "_table";
   result_.part_names.push_back(table);

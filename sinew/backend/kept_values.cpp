@@ -136,4 +136,23 @@ KeptValues keep_values(const KeptSteps& steps, std::uint32_t registers) {
   return Keeper(steps).run(registers);
 }
 
+std::vector<std::string> kept_pointers(std::uint32_t size) {
+  std::vector<std::string> pointers;
+  while (pointers.size() < kKeptPointers && pointers.size() * 2 * kNearNumbers < size) {
+    pointers.push_back(pointers.empty() ? "kept" : "kept" + std::to_string(pointers.size() + 1));
+  }
+  return pointers;
+}
+
+std::uint32_t kept_numbers(std::uint32_t size) {
+  const auto pointers = static_cast<std::uint32_t>(kept_pointers(size).size());
+  return std::max(size, (2 * pointers - 1) * kNearNumbers);
+}
+
+KeptPlace kept_place(std::uint32_t slot) {
+  const std::uint32_t at = std::min(slot / (2 * kNearNumbers), kKeptPointers - 1);
+  return {at == 0 ? "kept" : "kept" + std::to_string(at + 1),
+          static_cast<int>(slot) - static_cast<int>((2 * at + 1) * kNearNumbers)};
+}
+
 }  // namespace sinew::backend

@@ -8,12 +8,13 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace sinew::backend {
 
 // Processors have 16 registers or, with AVX-512, 32, of which the compiler needs some itself.
-inline constexpr std::uint32_t kKeptRegisters = 28;
+inline constexpr std::uint32_t kKeptRegisters = 30;
 
 // Nodes in a stage: within it, what is read from memory may stay in a register, and no longer.
 inline constexpr std::uint32_t kStage = 40;
@@ -21,6 +22,9 @@ inline constexpr std::uint32_t kStage = 40;
 // Neighbours in memory that an instruction reaches with a displacement of one byte to either side
 // of a pointer, without AVX-512's scaling: half of them, in numbers of eight bytes.
 inline constexpr std::uint32_t kNearNumbers = 16;
+
+// Pointers into the array: more would leave too few registers for other addresses.
+inline constexpr std::uint32_t kKeptPointers = 4;
 
 // What is computed, step after step.
 class KeptSteps {
@@ -56,6 +60,17 @@ struct KeptValues {
 
   bool any() const { return size > 0; }
 };
+
+// Where a slot lies from one of the pointers into the array: each reaches 2 * kNearNumbers of them
+// with short addresses, and the last one all that are left.
+struct KeptPlace {
+  std::string pointer;  // "kept", "kept2", …
+  int offset;
+};
+
+std::vector<std::string> kept_pointers(std::uint32_t size);
+std::uint32_t kept_numbers(std::uint32_t size);  // of the array: no pointer leaves it
+KeptPlace kept_place(std::uint32_t slot);
 
 KeptValues keep_values(const KeptSteps& steps, std::uint32_t registers = kKeptRegisters);
 
