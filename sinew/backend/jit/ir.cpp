@@ -56,7 +56,18 @@ LLVMValueRef Ir::multiply(LLVMValueRef a, LLVMValueRef b) const {
   return LLVMBuildFMul(builder_, a, b, "");
 }
 LLVMValueRef Ir::divide(LLVMValueRef a, LLVMValueRef b) const {
-  return LLVMBuildFDiv(builder_, a, b, "");
+  const bool half_a_register = lanes_ == 2 && LLVMGetTypeKind(element_type_) == LLVMFloatTypeKind;
+  if (!half_a_register) return LLVMBuildFDiv(builder_, a, b, "");
+  // One by one: in the other half LLVM would divide nothing by nothing, which raises a flag.
+  LLVMValueRef result = LLVMGetUndef(type_);
+  for (unsigned k = 0; k < lanes_; ++k) {
+    const LLVMValueRef lane = LLVMConstInt(LLVMInt64TypeInContext(context_), k, false);
+    const LLVMValueRef quotient =
+        LLVMBuildFDiv(builder_, LLVMBuildExtractElement(builder_, a, lane, ""),
+                      LLVMBuildExtractElement(builder_, b, lane, ""), "");
+    result = LLVMBuildInsertElement(builder_, result, quotient, lane, "");
+  }
+  return result;
 }
 LLVMValueRef Ir::negate(LLVMValueRef a) const { return LLVMBuildFNeg(builder_, a, ""); }
 
