@@ -42,7 +42,8 @@ class GraphMaker {
   std::string name() {
     constexpr const char* kNames[] = {"arm", "Arm", "leg", "wrist joint", "", "größe", "1"};
     constexpr const char* kLanguages[] = {"", "", "@en", "@de"};
-    return fmt::format("\"{}\"{}", random_.pick(kNames), random_.pick(kLanguages));
+    const char* language = random_.pick(kLanguages);
+    return fmt::format("\"{}\"{}", random_.pick(kNames), language);
   }
 
   // In the form that oxigraph gives them, which stores numbers by value and forgets how they were

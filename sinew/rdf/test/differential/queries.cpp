@@ -100,7 +100,8 @@ class QueryMaker {
     std::string text = "CONSTRUCT {";
     for (int i = 0; i <= random_.below(2); ++i) {
       const std::string subject = random_.chance(15) ? "ex:new" : random_.pick(where.scope);
-      text += fmt::format(" {} {} {} .", subject, random_.pick(kLinks), random_.pick(where.scope));
+      const std::string object = random_.pick(where.scope);
+      text += fmt::format(" {} {} {} .", subject, random_.pick(kLinks), object);
     }
     return text + " } WHERE " + where.text;
   }
@@ -147,9 +148,10 @@ class QueryMaker {
         return alternatives(scope, depth);
       case 7:
         return "MINUS " + separate_group(scope, depth);
-      case 8:
-        return fmt::format("FILTER {}EXISTS {}", random_.chance(50) ? "NOT " : "",
-                           separate_group(scope, depth));
+      case 8: {
+        const std::string inner = separate_group(scope, depth);
+        return fmt::format("FILTER {}EXISTS {}", random_.chance(50) ? "NOT " : "", inner);
+      }
       case 9:
         return graph_ % 4 == 0 ? bind(scope) : in_graph(scope, depth);  // see make_graph
       case 10:
@@ -167,7 +169,8 @@ class QueryMaker {
 
   std::string alternatives(Scope& scope, int depth) {
     Scope left = scope, right = scope;
-    const std::string text = group(left, depth + 1) + " UNION " + group(right, depth + 1);
+    const std::string second = group(right, depth + 1);
+    const std::string text = group(left, depth + 1) + " UNION " + second;
     merge(scope, left);
     merge(scope, right);
     return text;
@@ -259,10 +262,10 @@ class QueryMaker {
       case 0:
         return "^" + link;
       case 1:
-        return fmt::format("({}/{})", path(depth - 1, counted), path(depth - 1, counted));
+        return pair("({}/{})", [&] { return path(depth - 1, counted); });
       case 2:
         if (!alternatives) return link;
-        return fmt::format("({}|{})", path(depth - 1, counted), path(depth - 1, counted));
+        return pair("({}|{})", [&] { return path(depth - 1, counted); });
       case 3:
         return fmt::format("({})*", path(depth - 1, false));
       case 4:
@@ -289,12 +292,14 @@ class QueryMaker {
     switch (random_.below(6)) {
       case 0:
         return expression(scope, 3);
-      case 1:
-        return fmt::format("{} != {}", random_.pick(scope), operand(scope, 0));
+      case 1: {
+        const std::string other = operand(scope, 0);
+        return fmt::format("{} != {}", random_.pick(scope), other);
+      }
       case 2:
-        return fmt::format("!bound({}) || isIRI({})", random_.pick(scope), random_.pick(scope));
+        return pair("!bound({}) || isIRI({})", [&] { return random_.pick(scope); });
       case 3:
-        return fmt::format("({}) || ({})", expression(scope, 2), expression(scope, 2));
+        return pair("({}) || ({})", [&] { return expression(scope, 2); });
       case 4:
         return ordering();
       default:
@@ -313,14 +318,15 @@ class QueryMaker {
       case 3:
         return fmt::format("bound({})", random_.pick(scope));
       case 4:
-        return fmt::format("({}) && ({})", nested(scope, depth), nested(scope, depth));
+        return pair("({}) && ({})", [&] { return nested(scope, depth); });
       case 5:
-        return fmt::format("({}) || ({})", nested(scope, depth), nested(scope, depth));
+        return pair("({}) || ({})", [&] { return nested(scope, depth); });
       case 6:
         return fmt::format("!({})", nested(scope, depth));
-      case 7:
-        return fmt::format("{} {}IN ({}, {})", x, random_.chance(50) ? "NOT " : "", y,
-                           random_.pick(kLiterals));
+      case 7: {
+        const char* literal = random_.pick(kLiterals);
+        return fmt::format("{} {}IN ({}, {})", x, random_.chance(50) ? "NOT " : "", y, literal);
+      }
       case 8:
         return fmt::format("{} {} {}", x, random_.chance(50) ? "+" : "-", y);
       case 9:
@@ -359,18 +365,28 @@ class QueryMaker {
   // Of values alone: SPARQL leaves the order of IRIs and of texts in a language to the engine.
   std::string ordering() {
     constexpr const char* kValues[] = {"1", "2", "-1", "0.5", "1.5", "true", "\"arm\"", "\"1\""};
-    return fmt::format("?v {} {}", random_.pick(kComparisons), random_.pick(kValues));
+    const char* value = random_.pick(kValues);
+    return fmt::format("?v {} {}", random_.pick(kComparisons), value);
   }
 
   std::string nested(const Scope& scope, int depth) {
     return depth > 1 ? expression(scope, depth - 1)
-                     : fmt::format("{} = {}", operand(scope, 0), operand(scope, 0));
+                     : pair("{} = {}", [&] { return operand(scope, 0); });
   }
 
   std::string operand(const Scope& scope, int depth) {
     if (depth > 1 && random_.chance(15)) return "(" + expression(scope, depth - 1) + ")";
     if (random_.chance(5)) return "?unbound";
     return random_.chance(65) ? random_.pick(scope) : random_.pick(kLiterals);
+  }
+
+  // A function's arguments are computed in an order that is the compiler's choice, and draws are
+  // not: nothing here draws twice in one call. The second of a pair is drawn first.
+  template <typename Draw>
+  static std::string pair(const char* format, Draw draw) {
+    const std::string second = draw();
+    const std::string first = draw();
+    return fmt::format(fmt::runtime(format), first, second);
   }
 
   // ---- scopes ----
