@@ -53,7 +53,7 @@ void LimbEmitter::end_step() {
 // Writes a value that has just been computed where it will be read.
 void LimbEmitter::wait_in_memory(std::uint32_t node) {
   const std::uint32_t value = nodes_.of(at_, node);
-  if (!kept_.any() || kept_.slot[value] == KeptValues::kNoSlot) return;
+  if (!kept_.any() || kept_.slot[value] == kNoSlot) return;
   const std::string& name = names_[at_][node];
   const KeptPlace place = kept_place(kept_.slot[value]);
   if (in_lanes()) {

@@ -45,8 +45,8 @@ class StepList {
   StepList(const LimbProgram& program, const LimbNodes& nodes)
       : program_(program), nodes_(nodes), steps_(nodes.size()), defined_(nodes.size(), false) {}
 
-  KeptSteps run(const std::vector<std::vector<std::uint32_t>>& orders,
-                const std::vector<std::uint32_t>& later) {
+  ValueSteps run(const std::vector<std::vector<std::uint32_t>>& orders,
+                 const std::vector<std::uint32_t>& later) {
     for (at_ = 0; at_ < program_.regions.size(); ++at_) {
       for (const std::uint32_t i : orders[at_]) step(i);
     }
@@ -115,16 +115,16 @@ class StepList {
 
   const LimbProgram& program_;
   const LimbNodes& nodes_;
-  KeptSteps steps_;
+  ValueSteps steps_;
   std::vector<bool> defined_;
   std::size_t at_ = 0;  // the region
 };
 
 }  // namespace
 
-KeptSteps limb_steps(const LimbProgram& program, const LimbNodes& nodes,
-                     const std::vector<std::vector<std::uint32_t>>& orders,
-                     const std::vector<std::uint32_t>& later) {
+ValueSteps limb_steps(const LimbProgram& program, const LimbNodes& nodes,
+                      const std::vector<std::vector<std::uint32_t>>& orders,
+                      const std::vector<std::uint32_t>& later) {
   return StepList(program, nodes).run(orders, later);
 }
 

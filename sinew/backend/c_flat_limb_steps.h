@@ -31,8 +31,8 @@ std::vector<std::uint32_t> limb_order(const program::LimbRegion& region,
 
 // One step for each of those nodes, region after region, with the inputs that it is the first to
 // need; and one in which the results of `later` are written.
-KeptSteps limb_steps(const program::LimbProgram& program, const LimbNodes& nodes,
-                     const std::vector<std::vector<std::uint32_t>>& orders,
-                     const std::vector<std::uint32_t>& later);
+ValueSteps limb_steps(const program::LimbProgram& program, const LimbNodes& nodes,
+                      const std::vector<std::vector<std::uint32_t>>& orders,
+                      const std::vector<std::uint32_t>& later);
 
 }  // namespace sinew::backend

@@ -32,7 +32,7 @@ void FlatEmitter::plan_stages(const AngleGroups& groups) {
   if (options_.form == FlatForm::kThread || groups.after.size() > options_.maximum_statements) {
     return;
   }
-  KeptSteps steps(dag_.size());
+  ValueSteps steps(dag_.size());
   const auto read_node = [&](std::uint32_t i) {
     const Op op = dag_.node(i).op;
     if (program::arity(op) > 0 && op != Op::kSin && op != Op::kCos) steps.read(i);
@@ -136,7 +136,7 @@ const std::string& FlatEmitter::input_again(std::uint32_t i, const Node& node) {
 
 // Writes a value that has just been computed where it will be read.
 void FlatEmitter::wait_in_memory(std::uint32_t node) {
-  if (!stages_ || kept_.slot[node] == KeptValues::kNoSlot) return;
+  if (!stages_ || kept_.slot[node] == kNoSlot) return;
   const auto [pointer, offset] = kept_place(kept_.slot[node]);
   line(fmt::format("KEPT({}, {}) = {};", pointer, offset, names_[node]));
   in_memory_[node] = {names_[node], fmt::format("{}[{}]", pointer, offset)};
@@ -152,7 +152,7 @@ void FlatEmitter::read_again(std::uint32_t node) {
 // A product that waits in memory is rounded before it is added to anything; so it is in a block,
 // whose values do not wait: a sample has the same bits in either.
 bool FlatEmitter::rounds_product(std::uint32_t node) const {
-  return block_form_ && kept_.any() && kept_.slot[node] != KeptValues::kNoSlot &&
+  return block_form_ && kept_.any() && kept_.slot[node] != kNoSlot &&
          dag_.node(node).op == Op::kMultiply;
 }
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "sinew/backend/value_steps.h"
+
 namespace sinew::backend {
 
 // Processors have 16 registers or, with AVX-512, 32, of which the compiler needs some itself.
@@ -26,34 +28,7 @@ inline constexpr std::uint32_t kNearNumbers = 16;
 // Pointers into the array: more would leave too few registers for other addresses.
 inline constexpr std::uint32_t kKeptPointers = 4;
 
-// What is computed, step after step.
-class KeptSteps {
- public:
-  explicit KeptSteps(std::uint32_t values) : widths_(values, 1) {}
-
-  // The present step computes this value, or reads it, whoever has computed it.
-  void define(std::uint32_t value) { defines_.push_back(value); }
-  void read(std::uint32_t value) { reads_.push_back(value); }
-  void end() {
-    ends_.push_back(
-        {static_cast<std::uint32_t>(defines_.size()), static_cast<std::uint32_t>(reads_.size())});
-  }
-  // Numbers that a value consists of; 1 unless said.
-  void set_width(std::uint32_t value, std::uint8_t width) { widths_[value] = width; }
-
- private:
-  friend class Keeper;
-  struct End {
-    std::uint32_t defines, reads;  // before it, of all steps
-  };
-  std::vector<std::uint8_t> widths_;
-  std::vector<std::uint32_t> defines_, reads_;
-  std::vector<End> ends_;
-};
-
 struct KeptValues {
-  static constexpr std::uint32_t kNoSlot = 0xffffffffU;
-
   std::vector<std::uint32_t> slot;  // of a value: its place in the array; kNoSlot: never there
   std::vector<std::vector<std::uint32_t>> leaving;  // after each step: what is read there from now
   std::uint32_t size = 0;                           // numbers in the array
@@ -72,6 +47,6 @@ std::vector<std::string> kept_pointers(std::uint32_t size);
 std::uint32_t kept_numbers(std::uint32_t size);  // of the array: no pointer leaves it
 KeptPlace kept_place(std::uint32_t slot);
 
-KeptValues keep_values(const KeptSteps& steps, std::uint32_t registers = kKeptRegisters);
+KeptValues keep_values(const ValueSteps& steps, std::uint32_t registers = kKeptRegisters);
 
 }  // namespace sinew::backend

@@ -166,7 +166,7 @@ class SampleEmitter {
         of.op == Op::kInput ? gathered(region, of.index) : emitter.compute(node);
     emitter.hold(node, value);
     const std::uint32_t slot = plan_.slot[steps_->value(region, node)];
-    if (slot != RegisterPlan::kNoSlot) memory_->keep(value, slot);
+    if (slot != kNoSlot) memory_->keep(value, slot);
     const auto results = results_of_[region].find(node);
     if (results == results_of_[region].end()) return;
     for (const std::uint32_t i : results->second)
@@ -191,7 +191,7 @@ class SampleEmitter {
         break;
     }
     const std::uint32_t slot = plan_.slot[steps_->value(region, node)];
-    return slot == RegisterPlan::kNoSlot ? nullptr : memory_->waiting(slot, type_of(region));
+    return slot == kNoSlot ? nullptr : memory_->waiting(slot, type_of(region));
   }
 
   LLVMValueRef plain_input(std::uint32_t region, std::uint32_t input) {
@@ -244,7 +244,7 @@ class SampleEmitter {
     if (program_.regions[region].lanes == 1) return emitter.value(node);
     if (emitter.held(node) == nullptr) {
       const std::uint32_t slot = plan_.slot[steps_->value(region, node)];
-      if (slot != RegisterPlan::kNoSlot) return memory_->waiting(slot + lane, number_);
+      if (slot != kNoSlot) return memory_->waiting(slot + lane, number_);
       const Node& of = node_of(region, node);
       if (of.op == Op::kInput) return number(program_.regions[region].inputs[of.index][lane]);
     }

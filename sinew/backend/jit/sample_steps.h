@@ -34,12 +34,12 @@ class SampleSteps {
 
   // The nodes in the order in which they are computed, gathered inputs among them.
   const std::vector<RegionNode>& nodes() const { return nodes_; }
-  // As RegisterSteps, with a step for each of nodes() and the last one, count their values.
+  // As ValueSteps, with a step for each of nodes() and the last one, count their values.
   std::uint32_t value(std::uint32_t region, std::uint32_t node) const {
     return first_[region] + node;
   }
   RegionNode node_of(std::uint32_t value) const;
-  const RegisterSteps& registers() const { return registers_; }
+  const ValueSteps& registers() const { return registers_; }
 
  private:
   void add(std::uint32_t region, std::uint32_t node);
@@ -52,7 +52,7 @@ class SampleSteps {
   std::vector<std::uint32_t> first_;  // value of each region's first node; and behind the last
   std::vector<RegionNode> nodes_;
   std::vector<bool> defined_;  // values
-  RegisterSteps registers_;
+  ValueSteps registers_;
 };
 
 }  // namespace sinew::backend

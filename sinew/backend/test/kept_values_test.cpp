@@ -7,15 +7,15 @@
 namespace {
 
 using sinew::backend::keep_values;
-using sinew::backend::KeptSteps;
 using sinew::backend::KeptValues;
+using sinew::backend::ValueSteps;
 
-constexpr std::uint32_t kNone = KeptValues::kNoSlot;
+constexpr std::uint32_t kNone = sinew::backend::kNoSlot;
 
 // One step after the other: what it reads, then what it computes.
-KeptSteps steps(std::uint32_t values,
-                std::initializer_list<std::pair<std::vector<std::uint32_t>, std::uint32_t>> list) {
-  KeptSteps result(values);
+ValueSteps steps(std::uint32_t values,
+                 std::initializer_list<std::pair<std::vector<std::uint32_t>, std::uint32_t>> list) {
+  ValueSteps result(values);
   for (const auto& [reads, value] : list) {
     for (const std::uint32_t read : reads) result.read(read);
     result.define(value);
@@ -53,7 +53,7 @@ TEST(KeptValues, ValuesThatDoNotWaitTogetherShareASlot) {
 }
 
 TEST(KeptValues, VectorsLieWhereTheirWidthDividesAndOverlapNobody) {
-  KeptSteps list(7);
+  ValueSteps list(7);
   for (std::uint32_t value = 0; value < 6; ++value) {
     list.define(value);
     list.set_width(value, value % 2 == 0 ? 1 : 4);

@@ -12,9 +12,9 @@ namespace {
 
 using sinew::backend::plan_registers;
 using sinew::backend::RegisterPlan;
-using sinew::backend::RegisterSteps;
+using sinew::backend::ValueSteps;
 
-constexpr std::uint32_t kNone = RegisterPlan::kNoSlot;
+constexpr std::uint32_t kNone = sinew::backend::kNoSlot;
 constexpr std::uint32_t kFar = 1000;
 
 struct Step {
@@ -22,9 +22,9 @@ struct Step {
   std::uint32_t computes;
 };
 
-RegisterSteps steps(std::uint32_t values, const std::vector<Step>& list,
-                    const std::vector<std::uint8_t>& widths = {}) {
-  RegisterSteps result(values);
+ValueSteps steps(std::uint32_t values, const std::vector<Step>& list,
+                 const std::vector<std::uint8_t>& widths = {}) {
+  ValueSteps result(values);
   for (std::uint32_t value = 0; value < widths.size(); ++value) {
     result.set_width(value, widths[value]);
   }
