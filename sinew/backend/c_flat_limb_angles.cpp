@@ -54,7 +54,7 @@ void LimbEmitter::sine_of(std::uint32_t angle) {
   } else {
     line(fmt::format("angle{}[0] = {};", tag, from));
   }
-  const unsigned count = width_of(region().lanes);
+  const unsigned count = program::vector_width(region().lanes);
   line(fmt::format("{0}_sincos_all(angle{1}, sine{1}, cosine{1}, {2}, 1);", options_.name, tag,
                    count));
   body_.angles += count;
@@ -84,7 +84,7 @@ void LimbEmitter::sines_of_inputs() {
         continue;
       }
       places.push_back({at_, node.a.node(), angles.size()});
-      for (unsigned k = 0; k < width_of(region().lanes); ++k) {
+      for (unsigned k = 0; k < program::vector_width(region().lanes); ++k) {
         angles.push_back(text(sources[k < sources.size() ? k : 0]));
       }
     }

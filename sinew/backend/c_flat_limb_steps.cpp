@@ -11,12 +11,6 @@ using program::Node;
 using program::Op;
 using program::Ref;
 
-unsigned width_of(std::uint32_t lanes) {
-  unsigned width = 1;
-  while (width < lanes) width *= 2;
-  return width;
-}
-
 LimbNodes::LimbNodes(const LimbProgram& program) {
   first_.push_back(0);
   for (const LimbRegion& region : program.regions) {
@@ -78,7 +72,7 @@ class StepList {
     const std::uint32_t value = nodes_.of(at_, i);
     defined_[value] = true;
     steps_.define(value);
-    steps_.set_width(value, static_cast<std::uint8_t>(width_of(region().lanes)));
+    steps_.set_width(value, static_cast<std::uint8_t>(program::vector_width(region().lanes)));
   }
 
   void operand(Ref ref) {

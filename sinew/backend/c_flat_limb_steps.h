@@ -10,9 +10,6 @@
 
 namespace sinew::backend {
 
-// Lanes of the vector that holds these limbs; those that are left over repeat the first limb.
-unsigned width_of(std::uint32_t lanes);
-
 // Nodes of all regions, numbered through.
 class LimbNodes {
  public:

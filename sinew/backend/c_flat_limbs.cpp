@@ -40,7 +40,7 @@ LimbEmitter::LimbEmitter(const LimbProgram& program, const FlatLayout& layout,
   for (const LimbRegion& region : program.regions) {
     names_.emplace_back(region.computation.dag.size());
     live_.push_back(program::live_nodes(region.computation));
-    const unsigned width = width_of(region.lanes);
+    const unsigned width = program::vector_width(region.lanes);
     if (width > 1) body_.widths.push_back(width);
     types_.push_back(region.lanes > 1 ? fmt::format("{}_limbs{}", options.name, width) : scalar_);
   }
@@ -151,7 +151,7 @@ template <typename Lane>
 std::string LimbEmitter::vector(Lane lane) const {
   const std::uint32_t lanes = region().lanes;
   std::string list;
-  for (unsigned k = 0; k < width_of(lanes); ++k) {
+  for (unsigned k = 0; k < program::vector_width(lanes); ++k) {
     list += (k == 0 ? "{ " : ", ") + lane(k < lanes ? k : 0);
   }
   return list + " }";
@@ -159,7 +159,7 @@ std::string LimbEmitter::vector(Lane lane) const {
 
 // A vector of zeros of the region's type. C++ has no compound literals.
 std::string LimbEmitter::zero() {
-  std::string& name = zeros_[width_of(region().lanes)];
+  std::string& name = zeros_[program::vector_width(region().lanes)];
   if (name.empty()) {
     name = given_.unique("zero");
     line(fmt::format("const {} {} = {{ 0 }};", type(), name));

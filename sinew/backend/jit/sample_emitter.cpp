@@ -65,7 +65,7 @@ class SampleEmitter {
 
  private:
   LLVMTypeRef type_of(std::uint32_t region) const {
-    const unsigned width = vector_width(program_.regions[region].lanes);
+    const unsigned width = program::vector_width(program_.regions[region].lanes);
     return width == 1 ? number_ : LLVMVectorType(number_, width);
   }
   const Node& node_of(std::uint32_t region, std::uint32_t node) const {
@@ -116,8 +116,8 @@ class SampleEmitter {
       }
     }
     std::stable_sort(nodes.begin(), nodes.end(), [&](const RegionNode& a, const RegionNode& b) {
-      return vector_width(program_.regions[a.region].lanes) >
-             vector_width(program_.regions[b.region].lanes);
+      return program::vector_width(program_.regions[a.region].lanes) >
+             program::vector_width(program_.regions[b.region].lanes);
     });
     std::vector<LLVMValueRef> numbers;
     for (const RegionNode& angle : nodes) {
@@ -125,7 +125,7 @@ class SampleEmitter {
       const auto& sources = region.inputs[node_of(angle.region, angle.node).index];
       angles_[angle.region][angle.node] = numbers.size();
       emitters_[angle.region].fetch_sine(angle.node);
-      for (unsigned lane = 0; lane < vector_width(region.lanes); ++lane) {
+      for (unsigned lane = 0; lane < program::vector_width(region.lanes); ++lane) {
         numbers.push_back(angle_number(sources[lane < sources.size() ? lane : 0].index));
       }
     }
@@ -179,7 +179,7 @@ class SampleEmitter {
     switch (of.op) {
       case Op::kConstant:
         return memory_->constant(
-            std::vector<double>(vector_width(program_.regions[region].lanes), of.value));
+            std::vector<double>(program::vector_width(program_.regions[region].lanes), of.value));
       case Op::kInput:
         if (const LLVMValueRef value = plain_input(region, of.index)) return value;
         break;
@@ -201,7 +201,8 @@ class SampleEmitter {
         return memory_->input(sources[0].index);
       case RegionInput::kConstant: {
         std::vector<double> lanes;
-        for (unsigned lane = 0; lane < vector_width(program_.regions[region].lanes); ++lane) {
+        for (unsigned lane = 0; lane < program::vector_width(program_.regions[region].lanes);
+             ++lane) {
           lanes.push_back(sources[lane < sources.size() ? lane : 0].value);
         }
         return memory_->constant(lanes);
@@ -254,7 +255,7 @@ class SampleEmitter {
   // One number for each lane; those that are left over repeat the first.
   LLVMValueRef gathered(std::uint32_t region, std::uint32_t input) {
     const std::vector<LimbSource>& sources = program_.regions[region].inputs[input];
-    const unsigned width = vector_width(program_.regions[region].lanes);
+    const unsigned width = program::vector_width(program_.regions[region].lanes);
     if (width == 1) return number(sources[0]);
     if (is_whole_vector(sources)) {
       const Ref result = program_.regions[sources[0].region].computation.results[sources[0].index];

@@ -11,12 +11,6 @@ using program::Node;
 using program::Op;
 using program::Ref;
 
-unsigned vector_width(std::uint32_t lanes) {
-  unsigned width = 1;
-  while (width < lanes) width *= 2;
-  return width;
-}
-
 RegionInput kind_of_input(const LimbRegion& region, std::uint32_t input) {
   const std::vector<LimbSource>& sources = region.inputs[input];
   const auto all_are = [&](LimbSource::Kind kind) {
@@ -74,8 +68,8 @@ void SampleSteps::add(std::uint32_t region, std::uint32_t node) {
 void SampleSteps::define(std::uint32_t region, std::uint32_t node) {
   const std::uint32_t defined = value(region, node);
   registers_.define(defined);
-  registers_.set_width(defined,
-                       static_cast<std::uint8_t>(vector_width(program_.regions[region].lanes)));
+  registers_.set_width(
+      defined, static_cast<std::uint8_t>(program::vector_width(program_.regions[region].lanes)));
   registers_.end();
   defined_[defined] = true;
   nodes_.push_back({region, node});

@@ -15,9 +15,6 @@ struct RegionNode {
   std::uint32_t region = 0, node = 0;
 };
 
-// Lanes of the vector that holds these limbs; those that are left over repeat the first limb.
-unsigned vector_width(std::uint32_t lanes);
-
 // What an input of a region is made of.
 enum class RegionInput : std::uint8_t {
   kCaller,    // a plain number of the caller's

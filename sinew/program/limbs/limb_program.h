@@ -7,6 +7,7 @@
 // where they agree. Link frames that normalisation has chosen alike make them agree in most places.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -29,6 +30,9 @@ struct LimbSource {
 
   bool operator==(const LimbSource&) const = default;
 };
+
+// Lanes of the vector that holds these limbs; those that are left over repeat the first limb.
+constexpr unsigned vector_width(std::uint32_t limbs) { return std::bit_ceil(limbs); }
 
 struct LimbRegion {
   std::uint32_t lanes = 1;  // 1: plain numbers
