@@ -33,19 +33,28 @@ class Renderer {
   std::string run(const Fields& fields) {
     fields_.push_back(&fields);
     const Tag end = fill(0);
-    if (end.kind != Tag::Kind::kNone) malformed("section " + name(end) + " ends but has not begun");
+    if (end.kind != Tag::Kind::kNone)
+      malformed(end.begin, "section " + name(end) + " ends but has not begun");
     end_line();
     return std::move(result_);
   }
 
  private:
-  [[noreturn]] void malformed(const std::string& what) const {
-    throw Error(Problem{{std::string(path_), 0, 0},
+  // `at`: where in the template.
+  [[noreturn]] void refuse(std::size_t at, std::string what, std::string remedy) const {
+    const std::string_view before = text_.substr(0, at);
+    const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
+    const std::size_t end_of_last = before.rfind('\n');
+    const std::size_t column = end_of_last == kNowhere ? at + 1 : at - end_of_last;
+    throw Error(Problem{{std::string(path_), line, column},
                         {},
-                        "malformed template: " + what,
-                        "correct the template",
+                        std::move(what),
+                        std::move(remedy),
                         Severity::kError,
                         {}});
+  }
+  [[noreturn]] void malformed(std::size_t at, const std::string& what) const {
+    refuse(at, "malformed template: " + what, "correct the template");
   }
   static std::string name(const Tag& tag) { return "'" + std::string(tag.name) + "'"; }
 
@@ -58,7 +67,7 @@ class Renderer {
     const char first = inside < text_.size() ? text_[inside] : '\0';
     const std::string_view close = first == '{' ? "}}}" : "}}";
     const std::size_t until = text_.find(close, inside);
-    if (until == kNowhere) malformed("a tag does not end");
+    if (until == kNowhere) malformed(tag.begin, "a tag does not end");
     tag.end = until + close.size();
     tag.kind = first == '#'   ? Tag::Kind::kSection
                : first == '^' ? Tag::Kind::kInverted
@@ -82,8 +91,7 @@ class Renderer {
         case Tag::Kind::kComment:
           break;
         case Tag::Kind::kVariable:
-          if (const auto* value = find(tag.name))
-            if (const auto* text = std::get_if<std::string>(value)) result_ += *text;
+          result_ += text_of(tag);
           break;
         case Tag::Kind::kSection:
         case Tag::Kind::kInverted:
@@ -132,8 +140,8 @@ class Renderer {
   std::size_t once(const Tag& begin) {
     has_section_ = true;
     if (++depth_ > kDeepestSections)
-      malformed("sections stand in each other more than " + std::to_string(kDeepestSections) +
-                " deep");
+      malformed(begin.begin, "sections stand in each other more than " +
+                                 std::to_string(kDeepestSections) + " deep");
     const Tag end = fill(begin.end);
     --depth_;
     check_end(begin, end);
@@ -143,7 +151,7 @@ class Renderer {
 
   void check_end(const Tag& begin, const Tag& end) const {
     if (end.kind == Tag::Kind::kNone || end.name != begin.name)
-      malformed("section " + name(begin) + " does not end");
+      malformed(begin.begin, "section " + name(begin) + " does not end");
   }
 
   // The place behind a section that is left out.
@@ -161,6 +169,20 @@ class Renderer {
       from = tag.end;
     }
     return from;
+  }
+
+  // What a {{name}} stands for. A blank in its place would be code that nobody meant.
+  const std::string& text_of(const Tag& tag) const {
+    const Fields::Value* value = find(tag.name);
+    if (value == nullptr)
+      refuse(tag.begin, "nothing fills in " + name(tag),
+             "correct the name, add it to what the template is given, or have it in a section that "
+             "asks for it");
+    const auto* text = std::get_if<std::string>(value);
+    if (text == nullptr)
+      refuse(tag.begin, name(tag) + " is a section, and has no text",
+             "write {{#" + std::string(tag.name) + "}} to {{/" + std::string(tag.name) + "}}");
+    return *text;
   }
 
   // The innermost of this name.
@@ -199,7 +221,7 @@ std::string fill_template(std::string_view path, std::string_view text, const Fi
 }
 
 std::string render(std::string_view path, const Fields& fields) {
-  std::string result = fill_template(path, template_text(path), fields);
+  std::string result = fill_template("templates/" + std::string(path), template_text(path), fields);
   // The line of the comment that every template begins with.
   if (!result.empty() && result.front() == '\n') result.erase(0, 1);
   return result;

@@ -5,7 +5,8 @@
 // They are Mustache (https://mustache.github.io/mustache.5.html), of which these are known:
 // {{name}} and {{{name}}} alike, since nothing is escaped; {{#name}} and {{^name}} to {{/name}};
 // {{! comment}}. A line that held the ends of sections and is blank when they are filled in is left
-// out.
+// out. A name in braces that nothing fills in is an error, not a blank; a section asks whether its
+// name is there, so a name that is not is as good as `false` to it.
 #pragma once
 
 #include <map>
@@ -34,7 +35,8 @@ struct Fields {
 // The text of a template, for example "c/flat.c.mustache". Throws Error if there is none.
 std::string_view template_text(std::string_view path);
 
-// Throws Error if the template is malformed.
+// Throws Error, with the line of the template, if it is malformed, has a name that `fields` do not
+// fill in, or one in the place of a text that is a section there.
 std::string render(std::string_view path, const Fields& fields);
 
 // The same for a text; `path` names it in errors.

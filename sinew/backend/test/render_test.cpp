@@ -1,5 +1,6 @@
 #include "sinew/backend/render.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sinew/base/error.h"
@@ -14,8 +15,57 @@ std::string filled(std::string_view text, const Fields& fields) {
 TEST(Render, PutsTextsInAsTheyAre) {
   Fields fields;
   fields.text("name", "<a> & \"b\"");
-  EXPECT_EQ(filled("f({{name}}, {{{name}}}, {{unknown}}){{! not this }};", fields),
-            "f(<a> & \"b\", <a> & \"b\", );");
+  EXPECT_EQ(filled("f({{name}}, {{{name}}}){{! not this }};", fields),
+            "f(<a> & \"b\", <a> & \"b\");");
+}
+
+TEST(Render, RefusesNamesThatNothingFillsIn) {
+  Fields inner, fields;
+  inner.text("inner", "x");
+  fields.text("name", "y");
+  fields.list("list", {inner});
+  const struct {
+    const char* text;
+    const char* error;
+  } cases[] = {
+      {"a\n  {{unknown}}", "a template:2: nothing fills in 'unknown'; correct the name"},
+      {"{{name}} {{{unknown}}}", "a template:1: nothing fills in 'unknown'"},
+      {"{{#list}}{{inner}}{{/list}}{{inner}}", "a template:1: nothing fills in 'inner'"},
+      {"{{#list}}\n{{unknown}}{{/list}}", "a template:2: nothing fills in 'unknown'"},
+      {"{{^unknown}}{{unknown}}{{/unknown}}", "a template:1: nothing fills in 'unknown'"},
+      // Of Mustache, but not of what is known here; names have no blanks around them.
+      {"{{&name}}", "nothing fills in '&name'"},
+      {"{{>name}}", "nothing fills in '>name'"},
+      {"{{ name }}", "nothing fills in ' name '"},
+      {"{{}}", "nothing fills in ''"},
+      {"{{list}}", "a template:1: 'list' is a section, and has no text; write {{#list}}"},
+  };
+  for (const auto& [text, error] : cases) {
+    try {
+      const std::string result = filled(text, fields);
+      ADD_FAILURE() << text << " became " << result;
+    } catch (const Error& refusal) {
+      EXPECT_THAT(refusal.what(), testing::HasSubstr(error));
+    }
+  }
+}
+
+TEST(Render, AsksInSectionsWhetherANameIsThere) {
+  Fields fields;
+  const std::string text = "joint{{#unit}} [{{unit}}]{{/unit}}{{^unit}}, no unit{{/unit}}";
+  EXPECT_EQ(filled(text, fields), "joint, no unit");
+  fields.text("unit", "rad");
+  EXPECT_EQ(filled(text, fields), "joint [rad]");
+}
+
+TEST(Render, NamesTheFileOfATemplate) {
+  try {
+    render("c/readable.c.mustache", {});
+    FAIL() << "it has no banner";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("templates/c/readable.c.mustache:2: nothing "
+                                                 "fills in 'banner'"));
+  }
 }
 
 TEST(Render, LeavesOutSectionsThatAreNotThere) {
