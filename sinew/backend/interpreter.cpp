@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sinew/program/finite.h"
 #include "sinew/program/kernels.h"
 #include "sinew/program/trace.h"
 #include "sinew/program/validate.h"
@@ -10,6 +11,7 @@ namespace sinew::backend {
 
 Interpreter::Interpreter(const program::Program& program) {
   program::require_valid(program);
+  program::require_finite(program);
   interface_ = program::interface_of(program);
 
   std::vector<std::size_t> place(program.variables.size());

@@ -17,7 +17,8 @@ namespace sinew::backend {
 
 class Interpreter {
  public:
-  // Throws Error if the program is not valid. All memory is taken here.
+  // Throws Error if the program is not valid or divides by a constant zero. All memory is taken
+  // here.
   explicit Interpreter(const program::Program& program);
 
   std::size_t in_size() const { return interface_.in_size; }

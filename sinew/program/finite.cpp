@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "sinew/base/error.h"
+#include "sinew/program/dead_closures.h"
 #include "sinew/program/interface.h"
+#include "sinew/program/snap_constants.h"
+#include "sinew/program/trace.h"
 
 namespace sinew::program {
 namespace {
@@ -67,6 +70,12 @@ void require_finite(const Computation& computation, const Program& program) {
       used[operands[k].node()] = true;
     }
   }
+}
+
+void require_finite(const Program& program) {
+  Program used = without_dead_closures(program);
+  snap_constants(used);
+  require_finite(trace(used), used);
 }
 
 }  // namespace sinew::program

@@ -12,4 +12,8 @@ namespace sinew::program {
 // for it is about.
 void require_finite(const Computation& computation, const Program& program);
 
+// The same for what evaluates a program closure by closure, without tracing it: refuses what
+// scalar_program() refuses. Precondition: the program is valid.
+void require_finite(const Program& program);
+
 }  // namespace sinew::program

@@ -75,10 +75,17 @@ TEST_F(OddRobot, WithTwoJointsOnOneAxisAndNothingBetweenHasNoAcceleration) {
                               joint("ab", "continuous", "a", "b") +
                               joint("bc", "continuous", "b", "c");
   write_file(folder_ / "odd.urdf", "<robot name='odd'>\n" + content + "</robot>\n");
-  for (const std::string command : {"generate", "bench"}) {
-    const Result result = run_sinew(
-        {command, (folder_ / "odd.urdf").string(), "--solver", "aba", "--gravity", "0,0,-9.81"});
-    EXPECT_EQ(result.exit_code, 1) << command;
+  write_file(folder_ / "rows.csv", "position.ab\n0\n");
+  const std::vector<std::vector<std::string>> commands = {
+      {"generate"},
+      {"bench"},
+      {"run", "--input", (folder_ / "rows.csv").string()},
+      {"run", "--interpret", "--input", (folder_ / "rows.csv").string()}};
+  for (std::vector<std::string> command : commands) {
+    command.insert(command.begin() + 1,
+                   {(folder_ / "odd.urdf").string(), "--solver", "aba", "--gravity", "0,0,-9.81"});
+    const Result result = run_sinew(command);
+    EXPECT_EQ(result.exit_code, 1) << command[0];
     EXPECT_TRUE(std::regex_search(
         result.err, std::regex("odd.urdf:5: [^ ]*/joint/ab: its 'joint-acceleration-from-force' "
                                "divides by zero, or overflows, whatever the inputs are; look for")))

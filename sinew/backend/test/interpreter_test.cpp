@@ -9,6 +9,7 @@
 #include "serial_chain.h"
 #include "sinew/base/error.h"
 #include "sinew/program/derivatives.h"
+#include "sinew/program/scalar_program.h"
 
 namespace sinew {
 namespace {
@@ -68,6 +69,60 @@ TEST(Interpreter, RefusesAProgramThatIsNotValid) {
   program::Program program = test::inverse_dynamics(test::mixed_chain());
   std::swap(program.schedule.front(), program.schedule.back());
   EXPECT_THROW(backend::Interpreter{program}, Error);
+}
+
+// The acceleration of a joint whose unit force is constant: what it weighs about its axis.
+program::Program joint_of(double unit_force) {
+  using program::Role;
+  using program::Variable;
+  const auto variable = [](const std::string& name, Role role, std::uint32_t size) {
+    Variable v;
+    v.name = name;
+    v.represents = "https://example.org/joint";
+    v.role = role;
+    v.size = size;
+    return v;
+  };
+  program::Program program;
+  program.iri = "https://example.org/program";
+  program.variables = {variable("force", Role::kInput, 1), variable("wrench", Role::kInput, 6),
+                       variable("unit", Role::kConstant, 1), variable("twist", Role::kInput, 6),
+                       variable("acceleration", Role::kInternal, 1)};
+  program.variables[2].value = {unit_force};
+  program.variables[4].output = true;
+  program.closures = {{"joint-acceleration-from-force",
+                       "https://example.org/closure",
+                       "https://example.org/step",
+                       "https://example.org/joint",
+                       {0, 1, 2, 3, 4}}};
+  program.schedule = {0};
+  return program;
+}
+
+template <typename Make>
+std::string refusal_of(Make make) {
+  try {
+    make();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Interpreter, RefusesADivisionByAConstantZeroLikeGeneratedCode) {
+  EXPECT_EQ(refusal_of([] { backend::Interpreter{joint_of(0.5)}; }), "none");
+  const std::string refusal = refusal_of([] { backend::Interpreter{joint_of(0)}; });
+  EXPECT_NE(refusal.find("https://example.org/joint: its 'joint-acceleration-from-force' divides "
+                         "by zero"),
+            std::string::npos)
+      << refusal;
+  EXPECT_EQ(refusal, refusal_of([] { program::scalar_program(joint_of(0)); }));
+}
+
+TEST(Interpreter, MindsNoDivisionByZeroThatNothingUses) {
+  program::Program program = joint_of(0);
+  program.variables[4].output = false;
+  EXPECT_EQ(refusal_of([&] { backend::Interpreter{program}; }), "none");
 }
 
 TEST(Interpreter, CarriesStatesFromOneEvaluationToTheNext) {
