@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "sinew/backend/c_flat_limb_emitter.h"
+#include "sinew/backend/c_kept_array.h"
 
 namespace sinew::backend {
 
@@ -19,22 +20,10 @@ std::string offset(const std::string& array, int place) {
 }  // namespace
 
 void LimbEmitter::declare_kept() {
-  given_.take("kept_numbers");
-  line(fmt::format("{}_ALIGNED {} kept_numbers[{}];", upper_, scalar_, kept_numbers(kept_.size)));
-  std::uint32_t middle = kNearNumbers;
-  for (const std::string& pointer : kept_pointers(kept_.size)) {
-    given_.take(pointer);
-    pointers_.push_back(pointer);
-    line(fmt::format("{} *{} = kept_numbers + {};", scalar_, pointer, middle));
-    middle += 2 * kNearNumbers;
-    point_to(pointer);
-  }
+  declare_kept_array(kept_.size, upper_, scalar_, given_, pointers_, body_.code);
 }
 
-// From here on a compiler cannot know what the pointer points to.
-void LimbEmitter::point_to(const std::string& pointer) {
-  line(fmt::format("{}_AGAIN({});", upper_, pointer));
-}
+void LimbEmitter::point_to(const std::string& pointer) { point_again(pointer, upper_, body_.code); }
 
 void LimbEmitter::begin_step() {
   if (!kept_.any() || step_ == 0 || step_ % kStage != 0) return;

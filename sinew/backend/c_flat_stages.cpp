@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sinew/backend/c_flat_emitter.h"
+#include "sinew/backend/c_kept_array.h"
 
 namespace sinew::backend {
 
@@ -66,17 +67,8 @@ void FlatEmitter::plan_stages(const AngleGroups& groups) {
 }
 
 void FlatEmitter::declare_kept() {
-  for (const char* name : {"kept_numbers", "number"}) given_.take(name);
-  if (kept_.any())
-    line(fmt::format("{}_ALIGNED {} kept_numbers[{}];", upper_, scalar_, kept_numbers(kept_.size)));
-  std::uint32_t middle = kNearNumbers;
-  for (const std::string& pointer : kept_pointers(kept_.size)) {
-    given_.take(pointer);
-    pointers_.push_back(pointer);
-    line(fmt::format("{} *{} = kept_numbers + {};", scalar_, pointer, middle));
-    middle += 2 * kNearNumbers;
-    point_to(pointer);
-  }
+  if (kept_.any()) declare_kept_array(kept_.size, upper_, scalar_, given_, pointers_, *block_);
+  given_.take("number");
   if (layout_.in_size > kNearNumbers) {
     given_.take("inputs");
     touched_.insert("in");
@@ -88,10 +80,7 @@ void FlatEmitter::declare_kept() {
   new_constants();
 }
 
-// From here on a compiler cannot know what the pointer points to.
-void FlatEmitter::point_to(const std::string& pointer) {
-  line(fmt::format("{}_AGAIN({});", upper_, pointer));
-}
+void FlatEmitter::point_to(const std::string& pointer) { point_again(pointer, upper_, *block_); }
 
 void FlatEmitter::begin_step() {
   if (!stages_) return;
