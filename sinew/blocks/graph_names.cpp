@@ -31,7 +31,7 @@ bool ItemNames::has(const std::string& kind, const std::string& full) const {
 std::string ItemNames::resolve(const std::string& kind, const std::string& name,
                                const std::string& scope) const {
   for (std::string at = scope;; at = outer_scope(at)) {
-    const std::string full = join_scope(at, name);
+    std::string full = join_scope(at, name);
     if (has(kind, full)) return full;
     if (at.empty()) return {};
   }

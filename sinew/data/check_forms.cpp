@@ -99,7 +99,7 @@ void LibraryBuilder::read_aliases() {
         continue;
       }
       right_given[*right] = true;
-      map.images[*left] = {*right, entry.negative ? -1.0 : 1.0, 0};
+      map.images[*left] = {right, entry.negative ? -1.0 : 1.0, 0};
     }
     if (!sound) continue;
     for (int side = 0; side < 2; ++side) {

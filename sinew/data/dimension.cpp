@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 
 namespace sinew::data {
 namespace {
@@ -28,7 +29,7 @@ Dimension operator/(const Dimension& a, const Dimension& b) { return a * power(b
 
 Dimension power(const Dimension& a, int exponent) {
   Dimension result = a;
-  for (auto& value : result.exponents) value = static_cast<std::int8_t>(value * exponent);
+  for (int& value : result.exponents) value *= exponent;
   return result;
 }
 
@@ -59,9 +60,11 @@ std::optional<Dimension> parse_dimension(std::string_view text) {
       const auto [end, status] =
           std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
       if (status != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
-      if (exponent < -12 || exponent > 12) return std::nullopt;
+      if (std::abs(exponent) > kMaximumExponent) return std::nullopt;
     }
-    dimension.exponents[*index] = static_cast<std::int8_t>(dimension.exponents[*index] + exponent);
+    int& sum = dimension.exponents[*index];
+    sum += exponent;
+    if (std::abs(sum) > kMaximumExponent) return std::nullopt;
   }
   return dimension;
 }

@@ -26,8 +26,11 @@ enum class BaseQuantity : std::uint8_t {
 };
 constexpr std::size_t kBaseQuantities = 8;
 
+// The largest exponent of a base quantity in a unit or a formula.
+constexpr int kMaximumExponent = 24;
+
 struct Dimension {
-  std::array<std::int8_t, kBaseQuantities> exponents = {};
+  std::array<int, kBaseQuantities> exponents = {};
 
   bool dimensionless() const { return *this == Dimension{}; }
   friend bool operator==(const Dimension&, const Dimension&) = default;
@@ -37,7 +40,8 @@ Dimension operator*(const Dimension& a, const Dimension& b);
 Dimension operator/(const Dimension& a, const Dimension& b);
 Dimension power(const Dimension& a, int exponent);
 
-// "length mass time^-2"; "dimensionless". The reader takes the writer's form and nothing else.
+// "length mass time^-2"; "dimensionless". The reader takes the writer's form and nothing else, with
+// exponents up to the largest.
 std::string to_string(const Dimension& dimension);
 std::optional<Dimension> parse_dimension(std::string_view text);
 

@@ -180,11 +180,11 @@ class Emitter {
         continue;
       }
       if (!ready) {
-        stack.push_back({at, true});
+        stack.emplace_back(at, true);
         const int operands = row(it.operation).operands;
-        if (operands > 2) stack.push_back({it.c, false});
-        if (operands > 1) stack.push_back({it.b, false});
-        if (operands > 0) stack.push_back({it.a, false});
+        if (operands > 2) stack.emplace_back(it.c, false);
+        if (operands > 1) stack.emplace_back(it.b, false);
+        if (operands > 0) stack.emplace_back(it.a, false);
         continue;
       }
       if (uses_[at] > 1) {

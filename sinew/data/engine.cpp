@@ -11,7 +11,7 @@ namespace {
 template <typename Number>
 Number read_as(const char* at) {
   Number value;
-  std::memcpy(&value, at, sizeof value);
+  std::memcpy(static_cast<void*>(&value), at, sizeof value);
   return value;
 }
 

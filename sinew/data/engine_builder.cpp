@@ -140,11 +140,11 @@ class ConverterBuilder {
         continue;
       }
       if (!ready) {
-        stack.push_back({at, true});
+        stack.emplace_back(at, true);
         const int operands = row(node.operation).operands;
-        if (operands > 2) stack.push_back({node.c, false});
-        if (operands > 1) stack.push_back({node.b, false});
-        stack.push_back({node.a, false});
+        if (operands > 2) stack.emplace_back(node.c, false);
+        if (operands > 1) stack.emplace_back(node.b, false);
+        stack.emplace_back(node.a, false);
         continue;
       }
       add_arithmetic(at, node);

@@ -35,8 +35,7 @@ class ConverterCompiler {
     leave();
     converter_.code_ = code_.finish();
     if (!converter_.code_) return;
-    converter_.compiled_ = reinterpret_cast<Converter::Compiled>(
-        reinterpret_cast<std::uintptr_t>(converter_.code_.get()));
+    converter_.compiled_ = reinterpret_cast<Converter::Compiled>(converter_.code_.get());
     converter_.needs_constants_ = calls_;
   }
 
@@ -169,7 +168,7 @@ class ConverterCompiler {
     };
     std::optional<Vector> best;
     std::size_t farthest = 0;
-    for (Vector vector = 0; vector < holds_.size(); ++vector) {
+    for (Vector vector = 0; vector < kVectors; ++vector) {
       if (kept(vector)) continue;
       const std::size_t wanted = holds_[vector] ? next_use(*holds_[vector], true) : kNever;
       if (!holds_[vector] || wanted == kNever) {
@@ -346,7 +345,7 @@ class ConverterCompiler {
 
   // One operation by the interpreter, which finds and leaves all numbers at home.
   void interpret(const Item& item) {
-    for (Vector vector = 0; vector < holds_.size(); ++vector) {
+    for (Vector vector = 0; vector < kVectors; ++vector) {
       if (!holds_[vector]) continue;
       if (next_use(*holds_[vector], true) != kNever) send_home(*holds_[vector]);
       forget(vector);
@@ -405,7 +404,7 @@ class ConverterCompiler {
   std::vector<std::size_t> next_;
   std::vector<bool> at_home_;
   std::vector<std::optional<Vector>> vector_of_;
-  std::array<std::optional<std::size_t>, 16> holds_;
+  std::array<std::optional<std::size_t>, kVectors> holds_;
 };
 
 void compile(Converter& converter) { ConverterCompiler(converter).run(); }

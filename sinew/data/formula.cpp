@@ -139,11 +139,11 @@ class Parser {
     Dimension result;
     for (std::size_t i = 0; i < kBaseQuantities; ++i) {
       const int exponent = a.dimension->exponents[i] + sign * b.dimension->exponents[i];
-      if (exponent > kMaximumFormulaExponent || exponent < -kMaximumFormulaExponent) {
+      if (exponent > kMaximumExponent || exponent < -kMaximumExponent) {
         fail(place, fmt::format("a dimension's exponent is {}", exponent),
-             fmt::format("exponents go to {}", kMaximumFormulaExponent));
+             fmt::format("exponents go to {}", kMaximumExponent));
       }
-      result.exponents[i] = static_cast<std::int8_t>(exponent);
+      result.exponents[i] = exponent;
     }
     return result;
   }
@@ -151,14 +151,14 @@ class Parser {
   std::optional<Dimension> root_dimension(const Place& place, const Value& value) const {
     if (!value.dimension) return std::nullopt;
     Dimension result = *value.dimension;
-    for (auto& exponent : result.exponents) {
+    for (int& exponent : result.exponents) {
       if (exponent % 2 != 0) {
         fail(place,
              fmt::format("'{}' has the dimension {}, which has no square root", text(value),
                          name_of(*value.dimension)),
              "take the root of a product");
       }
-      exponent = static_cast<std::int8_t>(exponent / 2);
+      exponent /= 2;
     }
     return result;
   }

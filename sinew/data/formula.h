@@ -28,9 +28,6 @@ namespace sinew::data {
 // How deep an expression may be nested.
 constexpr std::size_t kMaximumFormulaDepth = 64;
 
-// The largest exponent of a base quantity in a formula.
-constexpr int kMaximumFormulaExponent = 24;
-
 // A number that goes in or comes out; without a dimension it is not checked.
 struct FormulaParameter {
   std::string name;

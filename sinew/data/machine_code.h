@@ -28,6 +28,7 @@ enum class General : std::uint8_t {
   k15 = 15,
 };
 using Vector = std::uint8_t;  // xmm0 to xmm15
+inline constexpr Vector kVectors = 16;
 
 // Operations on the low double of two vector registers, or of one and memory.
 enum class Instruction : std::uint8_t {

@@ -103,7 +103,7 @@ class Search {
     using Entry = std::tuple<int, int, std::size_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     best[from].known = true;
-    queue.push({0, 0, from});
+    queue.emplace(0, 0, from);
     const auto relax = [&](std::size_t at, std::size_t next, PlanStep&& step) {
       Best& known = best[next];
       const int cost = best[at].cost + step.cost, steps = best[at].steps + 1;
@@ -112,7 +112,7 @@ class Search {
         return;
       }
       known = {cost, steps, true, false, at, std::move(step)};
-      queue.push({cost, steps, next});
+      queue.emplace(cost, steps, next);
     };
     while (!queue.empty()) {
       const auto [cost, steps, at] = queue.top();

@@ -79,8 +79,8 @@ Index LibraryBuilder::free_space(const std::string& domain, const std::string& s
 Index LibraryBuilder::composed_space(const std::string& domain, const std::string& semantic,
                                      std::vector<std::pair<std::string, Index>> members) {
   std::string key = fmt::format("{}.{} of", domain, semantic);
-  Space space{{}, domain, semantic, {}, {}, {}, members};
-  for (const auto& [member, index] : members) {
+  Space space{{}, domain, semantic, {}, {}, {}, std::move(members)};
+  for (const auto& [member, index] : space.members) {
     key += fmt::format(" [{}]", library_.spaces[index].key);
     for (Space::Slot slot : library_.spaces[index].slots) {
       slot.name = member + "." + slot.name;
@@ -281,7 +281,7 @@ std::vector<Index> LibraryBuilder::formula_path(Index from, Index to) const {
         continue;
       auto longer = path;
       longer.push_back(i);
-      queue.push({cost + library_.formulas[edge.formula].cost + 1, std::move(longer), edge.to});
+      queue.emplace(cost + library_.formulas[edge.formula].cost + 1, std::move(longer), edge.to);
     }
   }
   return {};

@@ -18,9 +18,12 @@ namespace {
   throw Error(Problem{{file, 0, 0}, {}, what, remedy, Severity::kError, {}});
 }
 
-Unit product_of(const Unit& a, const Unit& b, int exponent) {
+// Nothing where an exponent of the product is too large for a unit.
+std::optional<Unit> product_of(const Unit& a, const Unit& b, int exponent) {
   Unit result = a;
   result.dimension = a.dimension * power(b.dimension, exponent);
+  for (const int of_base : result.dimension.exponents)
+    if (std::abs(of_base) > kMaximumExponent) return std::nullopt;
   for (int i = 0; i < std::abs(exponent); ++i) {
     result.scale = exponent > 0 ? result.scale * b.scale : result.scale / b.scale;
   }
@@ -131,7 +134,9 @@ std::optional<Unit> UnitTable::find_qudt_product(std::string_view text) const {
     const int exponent = take_trailing_exponent(word);
     const auto factor = find_single(word);
     if (!factor || factor->offset != 0 || exponent == 0) return std::nullopt;
-    result = product_of(result, *factor, sign * exponent);
+    auto product = product_of(result, *factor, sign * exponent);
+    if (!product) return std::nullopt;
+    result = *std::move(product);
   }
   return result;
 }
@@ -164,7 +169,9 @@ std::optional<Unit> UnitTable::find_symbol_product(std::string_view text) const 
     }
     const auto factor = find_single(word);
     if (!factor || factor->offset != 0) return std::nullopt;
-    result = product_of(result, *factor, sign * exponent);
+    auto product = product_of(result, *factor, sign * exponent);
+    if (!product) return std::nullopt;
+    result = *std::move(product);
     if (text.empty()) return result;
     sign = text[0] == '/' ? -1 : 1;
     text.remove_prefix(text.starts_with(kMiddleDot) ? kMiddleDot.size() : 1);

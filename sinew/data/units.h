@@ -41,7 +41,7 @@ struct UnitProblem {
   std::string remedy;
 };
 
-// The largest exponent that a unit in a product may have.
+// The largest exponent that a unit in a product may have; that of the product is kMaximumExponent.
 constexpr int kMaximumUnitExponent = 12;
 
 class UnitTable {

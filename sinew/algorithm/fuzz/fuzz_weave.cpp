@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     algorithm::weave(composition.store, composition.algorithm, kPrefixes + text, "fuzz.rq");
     woven = true;
-  } catch (const Error&) {
+  } catch (const Error&) {  // an answer too
   }
   // Throws, and so ends the run, where what weave() let through is at fault.
   algorithm::read_checked(composition.store.view(), composition.algorithm);

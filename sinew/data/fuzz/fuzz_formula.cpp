@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
       const data::FormulaParameter outputs[] = {{"z", {}}};
       data::parse_formula(rest, {"fuzz.blocks", 1, 1}, inputs, outputs);
     }
-  } catch (const Error&) {
+  } catch (const Error&) {  // an answer too
   }
   return 0;
 }

@@ -69,6 +69,25 @@ TEST(Units, ThatDoNotExistAreRefusedWithASuggestion) {
   }
 }
 
+// As a number of eight bits, metres to the 264th would be a length of 8 of them.
+TEST(Units, OfTooLargeExponentsAreRefused) {
+  const auto product = [](const std::string& factor, int times) {
+    std::string text = factor;
+    for (int k = 1; k < times; ++k) text += (factor[0] == 'm' ? "*" : "-") + factor;
+    return text;
+  };
+  EXPECT_EQ(to_string(find_unit(product("m^12", 2))->dimension), "length^24");
+  EXPECT_EQ(to_string(find_unit(product("M12", 2))->dimension), "length^24");
+  for (const int times : {3, 11, 22, 30}) {
+    EXPECT_FALSE(find_unit(product("m^12", times))) << times;
+    EXPECT_FALSE(find_unit(product("M12", times))) << times;
+    EXPECT_FALSE(find_unit(product("m^-12", times))) << times;
+  }
+  EXPECT_TRUE(parse_dimension("length^12 length^12"));
+  for (const char* text : {"length^25", "length^-25", "length^12 length^13", "length^300"})
+    EXPECT_FALSE(parse_dimension(text)) << text;
+}
+
 TEST(Units, ComeFromATableThatIsChecked) {
   EXPECT_THROW(UnitTable::read("{", "x.json"), Error);
   EXPECT_THROW(UnitTable::read(R"({"prefixes": [], "units": [{"name": "M"}]})", "x.json"), Error);
