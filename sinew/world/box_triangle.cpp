@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sinew::world {
 namespace {
@@ -37,7 +38,7 @@ BoxTriangle::Verdict BoxTriangle::judge(const std::array<Vector3, 3>& corners, d
     size = std::max(size, std::abs(corner.x) + std::abs(corner.y) + std::abs(corner.z));
   }
 
-  double gap = -INFINITY;
+  double gap = -std::numeric_limits<double>::infinity();
   // Along d, of length one times `length`: from the box's end to the triangle's.
   const auto project = [&](const Vector3& d, double length) {
     const double a = dot(v[0], d), b = dot(v[1], d), c = dot(v[2], d);

@@ -124,7 +124,8 @@ std::string to_string(const DeclaredTrigger& trigger, const World& world) {
 BoundTriggers bind_triggers(Triggers& triggers, World& world, Access& access,
                             const DeclaredScene& scene,
                             const std::vector<DeclaredTrigger>& declared,
-                            const TriggerActions& actions, std::shared_ptr<EventQueue> queue) {
+                            const TriggerActions& actions,
+                            const std::shared_ptr<EventQueue>& queue) {
   BoundTriggers result;
   std::set<std::string> named;
   for (const DeclaredTrigger& trigger : declared) {

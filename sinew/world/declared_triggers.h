@@ -77,6 +77,7 @@ struct BoundTriggers {
 BoundTriggers bind_triggers(Triggers& triggers, World& world, Access& access,
                             const DeclaredScene& scene,
                             const std::vector<DeclaredTrigger>& declared,
-                            const TriggerActions& actions, std::shared_ptr<EventQueue> queue);
+                            const TriggerActions& actions,
+                            const std::shared_ptr<EventQueue>& queue);
 
 }  // namespace sinew::world

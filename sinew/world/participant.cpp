@@ -79,7 +79,7 @@ Participant Access::participant(std::string who) {
   return {world_, nullptr, authority_, std::move(who)};
 }
 
-void Access::change(Rights rights) {
+void Access::change(const Rights& rights) {
   authority_->change(rights);
   enforce(world_, rights, authority_->audit());
 }

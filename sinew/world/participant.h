@@ -93,7 +93,7 @@ class Access {
   // Prepared queries, triggers, and claims of real-time handles are judged again: what may not any
   // more answers Status::kForbidden from then on. Clones that participants have are under the same
   // rights, but for claims in them.
-  void change(Rights rights);
+  void change(const Rights& rights);
 
  private:
   World& world_;

@@ -5,65 +5,62 @@
 namespace sinew::world {
 namespace {
 
-bool is_forbidden(const std::shared_ptr<const Permit>& permit) {
-  return permit && !permit->holds.load(std::memory_order_acquire);
+// What `read` writes into an answer, unless whoever asks may no longer.
+template <typename Answer, typename Read>
+Answer answer_of(const PreparedPlan& prepared, Read read) {
+  Answer answer;
+  if (prepared.permit && !prepared.permit->holds.load(std::memory_order_acquire)) [[unlikely]] {
+    answer.status = Status::kForbidden;
+    return answer;
+  }
+  read(*prepared.plan, answer);
+  answer.structure_changed = !prepared.is_current();
+  return answer;
+}
+
+PreparedPlan prepared_plan(std::shared_ptr<WorldImpl> world, PoseQuery query, bool with_motion,
+                           std::shared_ptr<const PlanGuard> guard) {
+  PreparedPlan prepared{std::move(world), std::move(query), with_motion, std::move(guard)};
+  prepared.refresh();
+  return prepared;
+}
+
+}  // namespace
+
+bool PreparedPlan::is_current() const {
+  return plan->structure_version == world->structure.load(std::memory_order_acquire);
 }
 
 // A new plan, when whoever asks may use it; and a place to read histories, when it needs one.
-void plan_anew(const std::shared_ptr<WorldImpl>& world, const PoseQuery& query, bool motion,
-               const std::shared_ptr<const PlanGuard>& guard, std::shared_ptr<const Plan>& plan,
-               std::shared_ptr<const Permit>& permit, OwnReaderPlace& place) {
-  std::shared_ptr<const Plan> next = world->plan(query, motion);
+void PreparedPlan::refresh() {
+  std::shared_ptr<const Plan> next = world->plan(query, with_motion);
   if (guard) permit = (*guard)(*next);
   if (next->keeps_past && !place.get()) place = OwnReaderPlace(world->family->readers);
   plan = std::move(next);
 }
 
-}  // namespace
-
 PreparedPose::PreparedPose(std::shared_ptr<WorldImpl> world, PoseQuery query,
                            std::shared_ptr<const PlanGuard> guard)
-    : world_(std::move(world)), query_(std::move(query)), guard_(std::move(guard)) {
-  refresh();
-}
+    : prepared_(prepared_plan(std::move(world), std::move(query), false, std::move(guard))) {}
 
-bool PreparedPose::is_current() const {
-  return plan_->structure_version == world_->structure.load(std::memory_order_acquire);
-}
-void PreparedPose::refresh() { plan_anew(world_, query_, false, guard_, plan_, permit_, place_); }
-Status PreparedPose::status() const { return plan_->status; }
-std::size_t PreparedPose::measured_steps() const { return plan_->steps.size(); }
-std::vector<SymbolicStep> PreparedPose::symbolic() const { return plan_->symbolic; }
+Status PreparedPose::status() const { return plan().status; }
+std::size_t PreparedPose::measured_steps() const { return plan().steps.size(); }
+std::vector<SymbolicStep> PreparedPose::symbolic() const { return plan().symbolic; }
 
 PoseAnswer PreparedPose::latest_realtime(Stamp now) const {
-  PoseAnswer answer;
-  if (is_forbidden(permit_)) [[unlikely]] {
-    answer.status = Status::kForbidden;
-    return answer;
-  }
-  read_latest(*plan_, now, query_.policy, answer);
-  answer.structure_changed = !is_current();
-  return answer;
+  return answer_of<PoseAnswer>(prepared_, [&](const Plan& plan, PoseAnswer& answer) {
+    read_latest(plan, now, prepared_.query.policy, answer);
+  });
 }
 PoseAnswer PreparedPose::at_realtime(Stamp time) const {
-  PoseAnswer answer;
-  if (is_forbidden(permit_)) [[unlikely]] {
-    answer.status = Status::kForbidden;
-    return answer;
-  }
-  read_at(*plan_, time, query_.policy, place_.get(), answer);
-  answer.structure_changed = !is_current();
-  return answer;
+  return answer_of<PoseAnswer>(prepared_, [&](const Plan& plan, PoseAnswer& answer) {
+    read_at(plan, time, prepared_.query.policy, prepared_.place.get(), answer);
+  });
 }
 PoseAnswer PreparedPose::latest_common_realtime() const {
-  PoseAnswer answer;
-  if (is_forbidden(permit_)) [[unlikely]] {
-    answer.status = Status::kForbidden;
-    return answer;
-  }
-  read_latest_common(*plan_, query_.policy, place_.get(), answer);
-  answer.structure_changed = !is_current();
-  return answer;
+  return answer_of<PoseAnswer>(prepared_, [&](const Plan& plan, PoseAnswer& answer) {
+    read_latest_common(plan, prepared_.query.policy, prepared_.place.get(), answer);
+  });
 }
 PoseAnswer PreparedPose::latest(Stamp now) {
   if (!is_current()) refresh();
@@ -80,44 +77,30 @@ PoseAnswer PreparedPose::latest_common() {
 
 PreparedMotion::PreparedMotion(std::shared_ptr<WorldImpl> world, PoseQuery query,
                                std::shared_ptr<const PlanGuard> guard)
-    : world_(std::move(world)), query_(std::move(query)), guard_(std::move(guard)) {
-  refresh();
-}
+    : prepared_(prepared_plan(std::move(world), std::move(query), true, std::move(guard))) {}
 
-bool PreparedMotion::is_current() const {
-  return plan_->structure_version == world_->structure.load(std::memory_order_acquire);
-}
-void PreparedMotion::refresh() { plan_anew(world_, query_, true, guard_, plan_, permit_, place_); }
-Status PreparedMotion::status() const { return plan_->status; }
+Status PreparedMotion::status() const { return prepared_.plan->status; }
 bool PreparedMotion::has_twist() const {
-  return std::all_of(plan_->steps.begin(), plan_->steps.end(),
+  const std::vector<PlanStep>& steps = prepared_.plan->steps;
+  return std::all_of(steps.begin(), steps.end(),
                      [](const PlanStep& step) { return step.velocity != kNone; });
 }
 bool PreparedMotion::has_acceleration() const {
-  return has_twist() &&
-         std::all_of(plan_->steps.begin(), plan_->steps.end(),
-                     [](const PlanStep& step) { return step.acceleration != kNone; });
+  const std::vector<PlanStep>& steps = prepared_.plan->steps;
+  return has_twist() && std::all_of(steps.begin(), steps.end(), [](const PlanStep& step) {
+           return step.acceleration != kNone;
+         });
 }
 
 MotionAnswer PreparedMotion::latest_realtime(Stamp now) const {
-  MotionAnswer answer;
-  if (is_forbidden(permit_)) [[unlikely]] {
-    answer.status = Status::kForbidden;
-    return answer;
-  }
-  read_motion(*plan_, now, true, query_.policy, place_.get(), answer);
-  answer.structure_changed = !is_current();
-  return answer;
+  return answer_of<MotionAnswer>(prepared_, [&](const Plan& plan, MotionAnswer& answer) {
+    read_motion(plan, now, true, prepared_.query.policy, prepared_.place.get(), answer);
+  });
 }
 MotionAnswer PreparedMotion::at_realtime(Stamp time) const {
-  MotionAnswer answer;
-  if (is_forbidden(permit_)) [[unlikely]] {
-    answer.status = Status::kForbidden;
-    return answer;
-  }
-  read_motion(*plan_, time, false, query_.policy, place_.get(), answer);
-  answer.structure_changed = !is_current();
-  return answer;
+  return answer_of<MotionAnswer>(prepared_, [&](const Plan& plan, MotionAnswer& answer) {
+    read_motion(plan, time, false, prepared_.query.policy, prepared_.place.get(), answer);
+  });
 }
 MotionAnswer PreparedMotion::latest(Stamp now) {
   if (!is_current()) refresh();

@@ -82,6 +82,20 @@ struct SymbolicStep {
   Pose value;  // of a constant: the relation's pose
 };
 
+// What both of the following keep; refresh() makes the plan and what belongs to it.
+struct PreparedPlan {
+  std::shared_ptr<WorldImpl> world;
+  PoseQuery query;
+  bool with_motion = false;                // velocities and accelerations too
+  std::shared_ptr<const PlanGuard> guard;  // of every plan, when it is made; none: null
+  std::shared_ptr<const Plan> plan = nullptr;
+  std::shared_ptr<const Permit> permit = nullptr;  // of that plan; null: nobody is asked
+  OwnReaderPlace place = {};                       // where the plan reads histories
+
+  bool is_current() const;  // no structural change since it was planned
+  void refresh();
+};
+
 class PreparedPose {
  public:
   PoseAnswer latest(Stamp now);
@@ -93,26 +107,21 @@ class PreparedPose {
   PoseAnswer at_realtime(Stamp time) const;
   PoseAnswer latest_common_realtime() const;
 
-  bool is_current() const;  // no structural change since it was planned
-  void refresh();
+  bool is_current() const { return prepared_.is_current(); }
+  void refresh() { prepared_.refresh(); }
   Status status() const;  // of the plan: kOk, kNotConnected, kRemoved
   std::size_t measured_steps() const;
 
   std::vector<SymbolicStep> symbolic() const;
 
-  const Plan& plan() const { return *plan_; }
+  const Plan& plan() const { return *prepared_.plan; }
 
  private:
   friend class World;
   friend class Reader;
   PreparedPose(std::shared_ptr<WorldImpl> world, PoseQuery query,
                std::shared_ptr<const PlanGuard> guard = nullptr);
-  std::shared_ptr<WorldImpl> world_;
-  PoseQuery query_;
-  std::shared_ptr<const PlanGuard> guard_;  // of every plan, when it is made; none: null
-  std::shared_ptr<const Plan> plan_;
-  std::shared_ptr<const Permit> permit_;  // of that plan; null: nobody is asked
-  OwnReaderPlace place_;                  // where the plan reads histories
+  PreparedPlan prepared_;
 };
 
 class PreparedMotion {
@@ -122,8 +131,8 @@ class PreparedMotion {
   MotionAnswer latest_realtime(Stamp now) const;
   MotionAnswer at_realtime(Stamp time) const;
 
-  bool is_current() const;
-  void refresh();
+  bool is_current() const { return prepared_.is_current(); }
+  void refresh() { prepared_.refresh(); }
   Status status() const;
   // Whether every relation on the way that can move has a measured velocity, and acceleration.
   bool has_twist() const;
@@ -134,12 +143,7 @@ class PreparedMotion {
   friend class Reader;
   PreparedMotion(std::shared_ptr<WorldImpl> world, PoseQuery query,
                  std::shared_ptr<const PlanGuard> guard = nullptr);
-  std::shared_ptr<WorldImpl> world_;
-  PoseQuery query_;
-  std::shared_ptr<const PlanGuard> guard_;  // of every plan, when it is made; none: null
-  std::shared_ptr<const Plan> plan_;
-  std::shared_ptr<const Permit> permit_;  // of that plan; null: nobody is asked
-  OwnReaderPlace place_;                  // where the plan reads histories
+  PreparedPlan prepared_;
 };
 
 }  // namespace sinew::world

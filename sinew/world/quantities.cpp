@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace sinew::world {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using math::dot;
 
 double shortest(const std::vector<Shape>& a, const std::vector<Shape>& b) {
-  double least = INFINITY;
+  double least = std::numeric_limits<double>::infinity();
   for (const Shape& of_a : a) {
     for (const Shape& of_b : b) least = std::min(least, distance(of_a, of_b));
   }
@@ -37,9 +38,9 @@ double covered(const Seen& a, const Seen& b, const Seen*) {
          share_of(low.y, high.y, b.box.minimum.y, b.box.maximum.y);
 }
 double most_outside(const Seen& a, const Seen& b, const Seen*) {
-  double most = -INFINITY;
+  double most = -std::numeric_limits<double>::infinity();
   for (const Shape& of_a : a.shapes) {
-    double least = INFINITY;
+    double least = std::numeric_limits<double>::infinity();
     for (const Shape& of_b : b.shapes) least = std::min(least, protrusion(of_a, of_b));
     most = std::max(most, least);
   }

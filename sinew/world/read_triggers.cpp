@@ -83,7 +83,7 @@ struct TriggerReader {
   std::optional<std::string> body(Id node, std::string_view term) {
     const auto named = reader.one(node, w(term), "a body between which is measured");
     if (!named) return std::nullopt;
-    const std::string name = numbers.text(*named);
+    std::string name = numbers.text(*named);
     const bool is_there =
         std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const DeclaredBody& each) {
           return each.iri == name && each.kind != DeclaredKind::kArea && !each.shapes.empty();

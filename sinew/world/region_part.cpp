@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sinew::world {
 namespace {
@@ -65,7 +66,8 @@ RegionPart::Verdict RegionPart::judge(const TurnedBox& box, bool is_all_of_it) c
   const double e[3] = {box_.half.x, box_.half.y, box_.half.z};
   const double f[3] = {box.half.x, box.half.y, box.half.z};
 
-  double gap = -INFINITY, overshoot = -INFINITY;
+  double gap = -std::numeric_limits<double>::infinity(),
+         overshoot = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 3; ++i) {
     const double reach = f[0] * size[i][0] + f[1] * size[i][1] + f[2] * size[i][2];
     gap = std::max(gap, std::abs(t[i]) - (e[i] + reach));

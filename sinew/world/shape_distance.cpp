@@ -193,9 +193,10 @@ Shape shrunk(const Shape& shape, double by) {
     }
     Geometry operator()(const Polygon& polygon) const {
       auto outline = inner(polygon.outline, by);
+      if (outline.empty()) outline = polygon.outline;
       const double middle = 0.5 * (polygon.bottom + polygon.top);
-      return Polygon{outline.empty() ? polygon.outline : std::move(outline),
-                     std::min(middle, polygon.bottom + by), std::max(middle, polygon.top - by)};
+      return Polygon{std::move(outline), std::min(middle, polygon.bottom + by),
+                     std::max(middle, polygon.top - by)};
     }
     Geometry operator()(const MeshBounds& mesh) const {
       const Vector3 margin = {by, by, by}, middle = 0.5 * (mesh.minimum + mesh.maximum);

@@ -137,8 +137,9 @@ void SpaceIndex::rebuild() {
     const std::size_t lane = (slot & ~kWaiting) % kWidth;
     return 0.5 * (static_cast<double>(block.minimum[axis][lane]) + block.maximum[axis][lane]);
   };
-  double lowest[3] = {INFINITY, INFINITY, INFINITY}, extent = 0;
-  double highest[3] = {-INFINITY, -INFINITY, -INFINITY};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double lowest[3] = {kInfinity, kInfinity, kInfinity}, extent = 0;
+  double highest[3] = {-kInfinity, -kInfinity, -kInfinity};
   for (Index number = 0; number < slots_.size(); ++number) {
     if (slots_[number] == kNone) continue;
     order.push_back({0, number, slots_[number]});
