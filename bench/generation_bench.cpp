@@ -1,6 +1,9 @@
 // From model files to C text and to machine code, stage by stage, in milliseconds of processor
-// time: the least of several runs in one process.
-//   bench/bench_generation [PART OF SOLVER/ROBOT [RUNS]]     e.g. bench_generation rnea/humanoid
+// time: the least of several runs in one process. Below them what one call takes that writes all
+// five functions (cli/generate_each.h): on the clock with all processors and with one, and the
+// processor time of all threads together.
+//   bench/bench_generation [PART OF SOLVER/ROBOT [RUNS]]     e.g. bench_generation rnea/humanoid,
+//                                                            bench_generation all/humanoid 100
 // The humanoid is the tests' own (tests/solvers/humanoid_urdf.h); a whole `sinew generate` adds the
 // process itself: perf stat -r 5 sinew generate ….
 #include <algorithm>
@@ -12,11 +15,13 @@
 #include <string>
 #include <vector>
 
+#include "generate_each.h"
 #include "humanoid_urdf.h"
 #include "pipeline.h"
 #include "question.h"
 #include "sinew/backend/c_target.h"
 #include "sinew/backend/jit.h"
+#include "sinew/base/workers.h"
 #include "sinew/program/limbs/limb_program.h"
 #include "sinew/program/scalar_program.h"
 #include "temporary_urdf.h"
@@ -25,6 +30,7 @@ namespace {
 
 using namespace sinew;
 
+constexpr const char* kSolvers[] = {"fpk", "jacobian", "rnea", "aba", "crba"};
 int runs = 9;
 
 double processor_ms() {
@@ -83,10 +89,15 @@ void run_once(const cli::ModelOptions& files, const cli::QueryOptions& query, Ti
   times.ms[kJit] = std::min(times.ms[kJit], processor_ms() - before);
 }
 
-void row(const test::Robot& robot, const std::string& solver, bool floating) {
+cli::ModelOptions files_of(const test::Robot& robot) {
   cli::ModelOptions files;
   files.files = {robot.file};
   files.lenient = true;
+  return files;
+}
+
+void row(const test::Robot& robot, const std::string& solver, bool floating) {
+  const cli::ModelOptions files = files_of(robot);
   cli::QueryOptions query;
   query.solver = solver;
   query.gravity = "0,0,-9.81";
@@ -108,6 +119,46 @@ void row(const test::Robot& robot, const std::string& solver, bool floating) {
     }
   }
   std::printf(jit ? " | %.1f | %.1f |\n" : " | %.1f | – |\n", to_c, to_code);
+}
+
+struct Elapsed {
+  double wall_ms = 1e300, processor_ms = 1e300;
+};
+
+// From the model files to the text of all files of all functions; the least of each.
+Elapsed all_at_once(const cli::ModelOptions& files, const cli::QueryOptions& query,
+                    unsigned threads) {
+  const auto now = [](clockid_t clock) {
+    timespec time{};
+    clock_gettime(clock, &time);
+    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
+  };
+  Elapsed least;
+  for (int k = 0; k < runs; ++k) {
+    const double wall = now(CLOCK_MONOTONIC), processor = now(CLOCK_PROCESS_CPUTIME_ID);
+    {
+      const auto models = cli::load(files);
+      static_cast<void>(
+          cli::generate_each(*models, files, cli::each_solver(query), "", {}, threads));
+    }
+    least.wall_ms = std::min(least.wall_ms, now(CLOCK_MONOTONIC) - wall);
+    least.processor_ms = std::min(least.processor_ms, now(CLOCK_PROCESS_CPUTIME_ID) - processor);
+  }
+  return least;
+}
+
+void row_of_all(const test::Robot& robot, bool floating) {
+  cli::QueryOptions query;
+  query.gravity = "0,0,-9.81";
+  query.floating = floating;
+  for (const char* solver : kSolvers)
+    query.solver += (query.solver.empty() ? "" : ",") + std::string(solver);
+  const unsigned threads = Workers::as_many_as_the_machine_has();
+  const Elapsed beside = all_at_once(files_of(robot), query, threads);
+  const Elapsed alone = all_at_once(files_of(robot), query, 1);
+  std::printf("| all/%s%s | %.1f | %.1f | %.1f | %.1f |\n", robot.name.c_str(),
+              floating ? " floating" : "", beside.wall_ms, beside.processor_ms, alone.wall_ms,
+              alone.processor_ms);
 }
 
 }  // namespace
@@ -135,9 +186,16 @@ int main(int argc, char** argv) {
   drawn.name = "humanoid";
   subjects.push_back({drawn, true});
   for (const Subject& subject : subjects) {
-    for (const std::string solver : {"fpk", "jacobian", "rnea", "aba", "crba"})
+    for (const std::string solver : kSolvers)
       if ((solver + "/" + subject.robot.name).find(part) != std::string::npos)
         row(subject.robot, solver, subject.floating);
   }
+  std::printf(
+      "\n| all five in one call, %u threads | on the clock | processor | one thread: on the clock "
+      "| processor |\n| --- | ---: | ---: | ---: | ---: |\n",
+      Workers::as_many_as_the_machine_has());
+  for (const Subject& subject : subjects)
+    if (("all/" + subject.robot.name).find(part) != std::string::npos)
+      row_of_all(subject.robot, subject.floating);
   return 0;
 }

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "generate_each.h"
 #include "options.h"
 #include "output.h"
 #include "pipeline.h"
@@ -9,6 +10,21 @@
 #include "sinew/program/program_json.h"
 
 namespace sinew::cli {
+namespace {
+
+void write_file(const std::string& folder, const std::string& name, const std::string& text) {
+  write_output((std::filesystem::path(folder) / name).string(), text);
+}
+
+void write_files(const std::string& folder, const backend::GeneratedCode& code) {
+  for (const backend::SourceFile& file : code.files) write_file(folder, file.name, file.text);
+}
+
+void write_program(const std::string& folder, const program::Program& program) {
+  write_file(folder, program.name + ".program.json", program::to_json(program));
+}
+
+}  // namespace
 
 int run_generate(Arguments arguments) {
   CLI::App app(
@@ -25,6 +41,11 @@ int run_generate(Arguments arguments) {
   add_query_options(app, query);
   add_derivative_option(app, query);
   app.add_option("--name", name, "Name of the function and the files (default: the query's)");
+  bool each = false;
+  app.add_flag("--each", each,
+               "A function of its own for each --solver, with files of its own, called as the "
+               "solver (with --name NAME: NAME_SOLVER): the same as one call for each, in less "
+               "time. Files are written when all functions are there");
   app.add_option("--target", target,
                  "c; cpp: C++ with the numbers by name (NAME.hpp); cuda: one thread a sample; or "
                  "program: the program itself as JSON")
@@ -56,17 +77,20 @@ int run_generate(Arguments arguments) {
   app.add_option("-o,--output", folder, "Folder for the files")->capture_default_str();
   if (const auto code = parse(app, std::move(arguments))) return *code;
 
+  const std::vector<QueryOptions> questions =
+      each ? each_solver(query) : std::vector<QueryOptions>();
   const auto models = load(models_options);
-  const program::Program program = program_of(*models, models_options, query, name);
   if (target == "program") {
-    write_output((std::filesystem::path(folder) / (program.name + ".program.json")).string(),
-                 program::to_json(program));
+    std::vector<program::Program> programs;
+    for (const QueryOptions& question : questions)
+      programs.push_back(
+          program_of(*models, models_options, question, function_name(name, question)));
+    if (!each) programs.push_back(program_of(*models, models_options, query, name));
+    for (const program::Program& program : programs) write_program(folder, program);
     return kOk;
   }
   backend::COptions options;
-  options.name = program.name;
   options.style = style == "flat" ? backend::Style::kFlat : backend::Style::kReadable;
-  options.source = describe(models_options, query);
   options.scalar = scalar == "float" ? backend::Scalar::kFloat : backend::Scalar::kDouble;
   options.language = target == "cuda"  ? backend::Language::kCuda
                      : target == "cpp" ? backend::Language::kCpp
@@ -80,11 +104,18 @@ int run_generate(Arguments arguments) {
       std::cerr << program::to_string(report) << '\n';
     };
   }
-  const backend::GeneratedCode code =
-      with_places(*models, [&] { return backend::generate_c(program, options); });
-  for (const backend::SourceFile& file : code.files) {
-    write_output((std::filesystem::path(folder) / file.name).string(), file.text);
+  if (each) {
+    // Passes of several functions at once would be a trace of none.
+    const unsigned threads = trace ? 1 : Workers::as_many_as_the_machine_has();
+    for (const backend::GeneratedCode& code :
+         generate_each(*models, models_options, questions, name, options, threads))
+      write_files(folder, code);
+    return kOk;
   }
+  const program::Program program = program_of(*models, models_options, query, name);
+  options.name = program.name;
+  options.source = describe(models_options, query);
+  write_files(folder, with_places(*models, [&] { return backend::generate_c(program, options); }));
   return kOk;
 }
 

@@ -37,6 +37,11 @@ bool names_query(const QueryOptions& query) {
 
 void print_note(const std::string& text) { std::cerr << "note: " << text << "\n"; }
 
+// Several questions about one robot have the same to say of it.
+void print_note_once(Models& models, const std::string& text) {
+  if (models.noted.insert(text).second) print_note(text);
+}
+
 // The algorithm that the files hold.
 graph::Id only_algorithm(Models& models) {
   const auto found = algorithm::find_algorithms(models.store.view());
@@ -139,6 +144,14 @@ synthesis::Query query_of(std::vector<synthesis::Query> queries, const QueryOpti
 namespace {
 
 void normalise(Models& models, const synthesis::Query& query, std::optional<double> snap) {
+  const bool gravity_varies = std::ranges::any_of(query.given, [](const synthesis::Given& given) {
+    return given.quantity == "gravity" && given.varies;
+  });
+  Models::RobotAsked asked{query.base, query.tips, query.gravity, gravity_varies, snap};
+  if (models.normalised && models.normalised->asked == asked &&
+      models.normalised->version == models.store.view().stamp())
+    return;
+  models.normalised.reset();
   model::NormaliseOptions options;
   if (snap) options.snap_tolerance = *snap;
   options.base = query.base;
@@ -146,9 +159,7 @@ void normalise(Models& models, const synthesis::Query& query, std::optional<doub
   options.tips = query.tips;
   if (query.gravity)
     options.gravity = model::Vector3{(*query.gravity)[0], (*query.gravity)[1], (*query.gravity)[2]};
-  options.gravity_varies = std::ranges::any_of(query.given, [](const synthesis::Given& given) {
-    return given.quantity == "gravity" && given.varies;
-  });
+  options.gravity_varies = gravity_varies;
   Report report;
   const model::Tree tree = model::normalise(models.store, models.places, options, report);
   print_notes(report);
@@ -164,6 +175,7 @@ void normalise(Models& models, const synthesis::Query& query, std::optional<doub
   placed.throw_if_errors();
   for (const std::string& note : tree.notes) print_note(note);
   model::write(tree, models.store);
+  models.normalised = Models::Normalised{std::move(asked), models.store.view().stamp()};
 }
 
 }  // namespace
@@ -207,7 +219,9 @@ graph::Id algorithm_of(Models& models, const synthesis::Query& asked, std::vecto
   normalise(models, query, snap);
   synthesis::Synthesis synthesis = with_places(
       models, [&] { return synthesis::synthesise(models.store, query, &models.places, graph); });
-  for (const std::string& note : synthesis.notes) print_note(note);
+  // It has written nothing of which the tree is made.
+  models.normalised->version = models.store.view().stamp();
+  for (const std::string& note : synthesis.notes) print_note_once(models, note);
   if (why != nullptr) *why = std::move(synthesis.why);
   models.made.reset();
   if (synthesis.model)
@@ -235,6 +249,23 @@ program::Program program_of(Models& models, const ModelOptions& files, const Que
   program::Program program = lowered(models, algorithm, program_name);
   program::add_derivatives(program, options.derivatives);
   return program;
+}
+
+std::vector<QueryOptions> each_solver(const QueryOptions& query) {
+  std::vector<QueryOptions> questions;
+  std::istringstream names(query.solver);
+  for (std::string name; std::getline(names, name, ',');) {
+    const bool again = std::ranges::any_of(
+        questions, [&](const QueryOptions& other) { return other.solver == name; });
+    if (again)
+      fail("solver '" + name + "' is named twice, and each is to have files of its own",
+           "name it once");
+    questions.push_back(query);
+    questions.back().solver = name;
+  }
+  if (questions.empty())
+    fail("no solver is named that could have files of its own", "add --solver");
+  return questions;
 }
 
 program::Program lowered(const Models& models, graph::Id algorithm, const std::string& name) {

@@ -2,8 +2,10 @@
 // stage adds what a user should know to the report; what is at fault is thrown.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,22 @@ struct Models {
     graph::Stamp version;
   };
   std::optional<Made> made;
+  // The tree that was normalised last: whoever asks for the same robot finds it there, as long as
+  // nothing but algorithms of it have come into the graph.
+  struct RobotAsked {
+    std::string base;
+    std::vector<std::string> tips;
+    std::optional<std::array<double, 3>> gravity;
+    bool gravity_varies = false;
+    std::optional<double> snap;
+    bool operator==(const RobotAsked&) const = default;
+  };
+  struct Normalised {
+    RobotAsked asked;
+    graph::Stamp version;
+  };
+  std::optional<Normalised> normalised;
+  std::set<std::string> noted;  // notes of the synthesis that have been printed
 };
 
 // Reads all files; warnings go to standard error.
@@ -56,6 +74,10 @@ synthesis::Query query_of(std::vector<synthesis::Query> queries, const QueryOpti
 // `name` is the program's; empty: the query's.
 program::Program program_of(Models& models, const ModelOptions& files, const QueryOptions& query,
                             const std::string& name);
+
+// Each solver that the options name as a question of its own, with all that they say besides.
+// Throws Error where they name none, or one twice.
+std::vector<QueryOptions> each_solver(const QueryOptions& query);
 
 program::Program lowered(const Models& models, graph::Id algorithm, const std::string& name);
 
