@@ -49,6 +49,11 @@ std::optional<Id> GraphReader::one(Id node, Id property, std::string_view what) 
   return std::nullopt;
 }
 
+Id GraphReader::at_most_one(Id node, Id property, std::string_view what) {
+  if (!has(node, property)) return {};
+  return one(node, property, what).value_or(Id{});
+}
+
 std::optional<double> GraphReader::number(Id node, Id property) {
   const auto value = one(node, property, fmt::format("the number <{}>", text(property)));
   if (!value) return std::nullopt;
@@ -88,8 +93,10 @@ std::optional<Vector3> GraphReader::list_of_three(Id node, Id property) {
 std::optional<Matrix3> GraphReader::direction_cosines(Id node) {
   const auto x = list_of_three(node, ids.cosine_x), y = list_of_three(node, ids.cosine_y),
              z = list_of_three(node, ids.cosine_z);
-  if (!x || !y || !z) return std::nullopt;
-  return Matrix3{x->x, y->x, z->x, x->y, y->y, z->y, x->z, y->z, z->z};
+  const auto scale = this->scale(node, dimension::kNone, "the direction cosines");
+  if (!x || !y || !z || !scale) return std::nullopt;
+  const Vector3 a = *scale * *x, b = *scale * *y, c = *scale * *z;
+  return Matrix3{a.x, b.x, c.x, a.y, b.y, c.y, a.z, b.z, c.z};
 }
 
 const GraphReader::Unit& GraphReader::unit(Id node, Id iri) {

@@ -53,10 +53,13 @@ class GraphReader {
 
   // Exactly one value; `what` names it in the error ("the pose that the coordinates are of").
   std::optional<Id> one(Id node, Id property, std::string_view what);
+  // The value of a property that need not be there; null, and an error, when there are several.
+  Id at_most_one(Id node, Id property, std::string_view what);
   std::optional<double> number(Id node, Id property);
   std::optional<Vector3> vector(Id node, Id x, Id y, Id z);
   // A list of three numbers.
   std::optional<Vector3> list_of_three(Id node, Id property);
+  // In the unit that the node states for them.
   std::optional<Matrix3> direction_cosines(Id node);
 
   // What a number of that dimension is to be multiplied with to be in SI units: the scale of the

@@ -75,6 +75,7 @@ class Ids {
   Id transmission = iri(vocab::skc::JointTransmission), transmission_ratio = iri(vocab::skc::ratio),
      rotor_inertia = iri(vocab::skc::rotor_inertia);
   Id degree_of_freedom = iri(vocab::skc::degree_of_freedom);
+  Id chain = iri(vocab::kc::KinematicChain), joints = iri(vocab::kc::joints);
 
   // Dynamics. The older age writes `of` for `of-body`, and the legacy metamodel puts all on one
   // node.
@@ -84,6 +85,8 @@ class Ids {
   Id inertia = iri(vocab::dyn_ent::RigidBodyInertia), of_body = iri(vocab::dyn_ent::of_body),
      inertia_of = iri(vocab::dyn_ent::of), about = iri(vocab::dyn_ent::about);
   Id mass = iri(vocab::dyn_coord::mass), first_moment = iri(vocab::dyn_coord::first_moment_of_mass);
+  Id mass_coordinate = iri(vocab::dyn_coord::MassCoordinate),
+     rotational_inertia_coordinate = iri(vocab::dyn_coord::RotationalInertiaCoordinate);
   Id ixx = iri(vocab::dyn_coord::ixx), iyy = iri(vocab::dyn_coord::iyy),
      izz = iri(vocab::dyn_coord::izz), ixy = iri(vocab::dyn_coord::ixy),
      ixz = iri(vocab::dyn_coord::ixz), iyz = iri(vocab::dyn_coord::iyz);

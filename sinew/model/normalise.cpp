@@ -11,6 +11,7 @@
 #include "sinew/model/couple.h"
 #include "sinew/model/inertia.h"
 #include "sinew/model/plausible.h"
+#include "sinew/model/points.h"
 #include "sinew/model/rigid_bodies.h"
 #include "sinew/model/rotation.h"
 #include "sinew/model/sizes.h"
@@ -177,37 +178,13 @@ void make_frames_and_links(Work& work) {
 }
 
 // Where a point of a body is, seen from the body's frame.
-std::optional<Vector3> place_point(const Work& work, Id point, int rigid_body) {
-  const Structure& structure = work.structure;
-  // Points whose place is known, and those that the search has come by.
-  std::vector<std::pair<Id, Vector3>> offsets = {{point, {0, 0, 0}}};
-  for (std::size_t at = 0; at < offsets.size(); ++at) {
-    const auto [here, offset] = offsets[at];
-    if (const auto found = structure.frames_at.find(here); found != structure.frames_at.end()) {
-      for (const int frame : found->second) {
-        if (work.bodies.of_frame[frame] == rigid_body && work.poses[frame]) {
-          return work.poses[frame]->p + offset;
-        }
-      }
-    }
-    for (const Structure::Position& position : structure.positions) {
-      const bool forward = position.of == here;
-      if (!forward && position.with_respect_to != here) continue;
-      if (work.bodies.of_frame[position.seen_by] != rigid_body || !work.poses[position.seen_by]) {
-        continue;
-      }
-      const Id there = forward ? position.with_respect_to : position.of;
-      const bool known = std::any_of(offsets.begin(), offsets.end(),
-                                     [&](const auto& entry) { return entry.first == there; });
-      if (known) continue;
-      const Vector3 step = work.poses[position.seen_by]->R * position.position;
-      offsets.push_back({there, forward ? offset + step : offset - step});
-    }
-  }
-  return std::nullopt;
+std::optional<Vector3> find_point(const Points& points, Id point, int rigid_body) {
+  const auto found = points.find({rigid_body, point});
+  if (found == points.end()) return std::nullopt;
+  return found->second;
 }
 
-void add_inertias(Work& work) {
+void add_inertias(Work& work, const Points& points) {
   std::vector<Id> inertia_of(work.structure.links.size());
   for (const Structure::Inertia& inertia : work.structure.inertias) {
     const int rigid_body = work.bodies.of_frame[inertia.seen_by];
@@ -234,7 +211,7 @@ void add_inertias(Work& work) {
     inertia_of[link] = inertia.coordinate;
     const int index = work.tree_body[rigid_body];
     if (index == kNone) continue;
-    const auto p = place_point(work, inertia.about, rigid_body);
+    const auto p = find_point(points, inertia.about, rigid_body);
     if (!p || !work.poses[inertia.seen_by]) {
       work.error(
           inertia.coordinate,
@@ -261,7 +238,7 @@ void add_inertias(Work& work) {
   if (!massless.empty()) work.tree.notes.push_back("bodies without mass: " + massless);
 }
 
-void add_gravity(Work& work) {
+void add_gravity(Work& work, const Points& points) {
   Tree& tree = work.tree;
   if (work.options.gravity) {
     if (!within(*work.options.gravity, kLargestAcceleration))
@@ -287,7 +264,7 @@ void add_gravity(Work& work) {
           "state the base's acceleration once, or give the gravity");
       continue;
     }
-    const auto p = place_point(work, stated.reference_point, body);
+    const auto p = find_point(points, stated.reference_point, body);
     if (!p) {
       work.error(stated.coordinate,
                  "the reference point is no point of the base whose place is known",
@@ -351,8 +328,10 @@ Tree normalise(graph::Store& store, const graph::Places& places, const Normalise
   make_bodies_and_joints(work);
   couple(work.structure, store.terms(), places, work.tree, report);
   make_frames_and_links(work);
-  add_inertias(work);
-  add_gravity(work);
+  const Points points =
+      place_points(work.structure, work.bodies, work.poses, store.terms(), places, report);
+  add_inertias(work, points);
+  add_gravity(work, points);
   if (report.has_errors()) return {};
   // Round-off first: it is not worth a word.
   const double round_off = std::min(options.snap_tolerance, kSnapTolerance);

@@ -14,6 +14,17 @@ constexpr double kAxisTolerance = 1e-6;
 
 std::optional<JointKind> read_kind(GraphReader& reader, Id joint) {
   const Ids& ids = reader.ids;
+  std::string kinds;
+  int count = 0;
+  for (const Id kind : joint_types(ids)) {
+    if (!reader.is_a(joint, kind)) continue;
+    kinds += fmt::format("{}<{}>", count++ ? ", " : "", reader.text(kind));
+  }
+  if (count > 1) {
+    reader.error(joint, ids.type, fmt::format("the joint is of {} kinds: {}", count, kinds),
+                 "let it be of one kind; motions one after the other are a CompositeJoint's");
+    return std::nullopt;
+  }
   if (reader.is_a(joint, ids.revolute)) return JointKind::kRevolute;
   if (reader.is_a(joint, ids.prismatic)) return JointKind::kPrismatic;
   if (reader.is_a(joint, ids.fixed)) return JointKind::kFixed;
@@ -71,9 +82,9 @@ std::optional<Direction> line_direction(GraphReader& reader, const Structure::Fr
   std::optional<Direction> direction;
   reader.view.match({}, ids.of_direction, line, graph::Dataset::kUnion, [&](const graph::Quad& q) {
     if (!reader.view.contains(q.subject, ids.seen_by, frame.iri)) return true;
-    if (!reader.scale(q.subject, dimension::kNone, "the direction")) return true;
-    if (const auto along = reader.vector(q.subject, ids.x, ids.y, ids.z))
-      direction = Direction{*along, q.subject};
+    const auto scale = reader.scale(q.subject, dimension::kNone, "the direction");
+    const auto along = reader.vector(q.subject, ids.x, ids.y, ids.z);
+    if (scale && along) direction = Direction{*scale * *along, q.subject};
     return !direction;
   });
   return direction;
@@ -95,11 +106,13 @@ std::optional<Vector3> read_axis(GraphReader& reader, const Structure& structure
       if ((directions[i] = line_direction(reader, frame, line))) break;
     }
     if (!directions[i]) {
-      reader.error(*axis, ids.lines,
-                   fmt::format("none of the lines has a known direction in the attachment <{}> of "
-                               "<{}>",
-                               reader.text(frame.iri), reader.text(joint)),
-                   "let one line be vector-x, vector-y or vector-z of each attachment");
+      const bool stated = !lines.empty();
+      reader.error(
+          stated ? *axis : joint, stated ? ids.lines : ids.common_axis,
+          fmt::format("none of the lines of <{}> has a known direction in the attachment <{}> of "
+                      "<{}>",
+                      reader.text(*axis), reader.text(frame.iri), reader.text(joint)),
+          "let one line be vector-x, vector-y or vector-z of each attachment");
       return std::nullopt;
     }
   }
@@ -123,6 +136,11 @@ std::optional<Vector3> read_axis(GraphReader& reader, const Structure& structure
                  "use the same axis of both attachments");
     return std::nullopt;
   }
+  if (reader.objects(joint, ids.polarity).size() > 1) {
+    reader.error(joint, ids.polarity, "the joint has two polarities",
+                 "write PositivePolarity or NegativePolarity");
+    return std::nullopt;
+  }
   const Id polarity = reader.view.object(joint, ids.polarity);
   if (polarity && polarity != ids.positive && polarity != ids.negative) {
     reader.error(joint, ids.polarity, fmt::format("<{}> is no polarity", reader.text(polarity)),
@@ -140,10 +158,11 @@ namespace {
 // Which attachment is the parent: the offset is the child's origin with respect to the parent's.
 void read_direction(GraphReader& reader, const Structure& structure, Structure::Joint& joint) {
   const Ids& ids = reader.ids;
-  const Id offset = reader.view.object(joint.iri, ids.origin_offset);
+  const Id offset = reader.at_most_one(joint.iri, ids.origin_offset, "the joint's offset");
   if (!offset) return;
-  const Id of = reader.view.object(offset, ids.of);
-  const Id wrt = reader.view.object(offset, ids.with_respect_to);
+  const Id of = reader.at_most_one(offset, ids.of, "the point whose position the offset is");
+  const Id wrt = reader.at_most_one(offset, ids.with_respect_to,
+                                    "the point with respect to which the offset is");
   const Id parent = structure.frames[joint.parent].origin;
   const Id child = structure.frames[joint.child].origin;
   if (!of || of == wrt) return;
@@ -160,11 +179,14 @@ void read_direction(GraphReader& reader, const Structure& structure, Structure::
   }
 }
 
-// The constant offset of the child's origin along the axis, where it has coordinates.
-void read_offset(GraphReader& reader, const Structure& structure, Structure::Joint& joint) {
+// The coordinates of the joint's offset, if it has any that its attachments see; those of several
+// contradict each other or say the same twice.
+const Structure::Position* stated_offset(GraphReader& reader, const Structure& structure,
+                                         const Structure::Joint& joint) {
   const Ids& ids = reader.ids;
   const Id offset = reader.view.object(joint.iri, ids.origin_offset);
-  if (!offset || joint.kind == JointKind::kFixed) return;
+  if (!offset) return nullptr;
+  const Structure::Position* stated = nullptr;
   for (const Structure::Position& position : structure.positions) {
     const Id relation = reader.view.object(position.coordinate, ids.of_position);
     if ((relation ? relation : position.coordinate) != offset) continue;
@@ -172,18 +194,46 @@ void read_offset(GraphReader& reader, const Structure& structure, Structure::Joi
       reader.error(position.coordinate, ids.seen_by,
                    "the joint's offset is seen by neither of its attachments",
                    "see it by the parent attachment");
-      return;
+      return nullptr;
     }
-    const double along = dot(position.position, joint.axis);
-    const Vector3 aside = position.position - along * joint.axis;
-    if (dot(aside, aside) > kAxisTolerance * kAxisTolerance) {
-      reader.error(position.coordinate, ids.x, "the joint's offset leaves its axis",
-                   "put an offset aside the axis into the pose of an attachment");
-      return;
+    if (stated) {
+      reader.error(position.coordinate, ids.of_position,
+                   fmt::format("the offset of <{}> has coordinates already, <{}>",
+                               reader.text(joint.iri), reader.text(stated->coordinate)),
+                   "state them once");
+      return nullptr;
     }
-    joint.offset = along;
+    stated = &position;
+  }
+  return stated;
+}
+
+// The constant offset of the child's origin along the axis, where it has coordinates.
+void read_offset(GraphReader& reader, const Structure& structure, Structure::Joint& joint) {
+  const Structure::Position* stated = stated_offset(reader, structure, joint);
+  if (!stated) return;
+  const double along = dot(stated->position, joint.axis);
+  const Vector3 aside = stated->position - along * joint.axis;
+  if (dot(aside, aside) > kAxisTolerance * kAxisTolerance) {
+    reader.error(stated->coordinate, reader.ids.x, "the joint's offset leaves its axis",
+                 "put an offset aside the axis into the pose of an attachment");
     return;
   }
+  joint.offset = along;
+}
+
+// What a fixed joint's offset has coordinates for is the pose of its child, which is not turned;
+// where the model states that pose as well, the two are compared when all frames have a place.
+void read_fixed_offset(GraphReader& reader, Structure& structure, const Structure::Joint& joint) {
+  const Structure::Position* stated = stated_offset(reader, structure, joint);
+  if (!stated) return;
+  for (const Structure::ConstantPose& pose : structure.poses) {
+    const bool both = (pose.of == joint.parent && pose.with_respect_to == joint.child) ||
+                      (pose.of == joint.child && pose.with_respect_to == joint.parent);
+    if (both) return;
+  }
+  const Pose pose = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, stated->position};
+  structure.poses.push_back({stated->coordinate, joint.child, joint.parent, pose});
 }
 
 }  // namespace
@@ -204,7 +254,11 @@ void read_joints(GraphReader& reader, Structure& structure) {
       joint.axis = *axis;
     }
     if (!read_motions(reader, structure, joint)) continue;
-    read_offset(reader, structure, joint);
+    if (joint.kind == JointKind::kFixed) {
+      read_fixed_offset(reader, structure, joint);
+    } else {
+      read_offset(reader, structure, joint);
+    }
     structure.joints.push_back(joint);
   }
   read_joint_properties(reader, structure);

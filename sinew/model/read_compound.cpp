@@ -71,6 +71,11 @@ std::optional<JointKind> compound_kind(const GraphReader& reader, Id joint) {
   return std::nullopt;
 }
 
+std::vector<Id> joint_types(const Ids& ids) {
+  return {ids.revolute, ids.prismatic, ids.fixed,     ids.helical,  ids.cylindrical,
+          ids.planar,   ids.universal, ids.spherical, ids.floating, ids.composite};
+}
+
 bool has_axis(JointKind kind) {
   return kind == JointKind::kRevolute || kind == JointKind::kPrismatic ||
          kind == JointKind::kHelical || kind == JointKind::kCylindrical ||

@@ -13,14 +13,26 @@ int seen_by(GraphReader& reader, Structure& structure, Id node, std::string_view
   return frame_of(reader, structure, node, dynamics ? ids.inertia_seen_by : ids.seen_by, what);
 }
 
-Id body_of(const GraphReader& reader, Id inertia) {
-  const Id body = reader.view.object(inertia, reader.ids.of_body);
-  return body ? body : reader.view.object(inertia, reader.ids.inertia_of);
+// Null for an inertia of nothing, which is an error where it is placed; nothing, and an error, for
+// one of several bodies.
+std::optional<Id> body_of(GraphReader& reader, Id inertia) {
+  const Ids& ids = reader.ids;
+  std::vector<Id> bodies = reader.objects(inertia, ids.of_body);
+  for (const Id body : reader.objects(inertia, ids.inertia_of)) bodies.push_back(body);
+  for (const Id body : bodies) {
+    if (body == bodies.front()) continue;
+    reader.error(inertia, ids.of_body,
+                 fmt::format("the inertia is of <{}> and of <{}>", reader.text(bodies.front()),
+                             reader.text(body)),
+                 "let it be of-body one link");
+    return std::nullopt;
+  }
+  return bodies.empty() ? Id{} : bodies.front();
 }
 
 void read_inertia(GraphReader& reader, Structure& structure, Id node) {
   const Ids& ids = reader.ids;
-  if (!reader.has(node, ids.mass) && !reader.has(node, ids.ixx)) return;  // computed elsewhere
+  if (!states_inertia(reader, node)) return;  // computed elsewhere
   const Id inertia =
       reader.has(node, ids.of_inertia)
           ? reader.one(node, ids.of_inertia, "the inertia that the coordinates are of")
@@ -36,14 +48,15 @@ void read_inertia(GraphReader& reader, Structure& structure, Id node) {
   const auto h = reader.list_of_three(node, ids.first_moment);
   const auto diagonal = reader.vector(node, ids.ixx, ids.iyy, ids.izz);
   const auto products = reader.vector(node, ids.ixy, ids.ixz, ids.iyz);
-  if (!about || frame == kNone || !mass_scale || !moment_scale || !inertia_scale || !mass || !h ||
-      !diagonal || !products) {
+  const auto body = body_of(reader, inertia);
+  if (!body || !about || frame == kNone || !mass_scale || !moment_scale || !inertia_scale ||
+      !mass || !h || !diagonal || !products) {
     return;
   }
   const double s = *inertia_scale;
   Structure::Inertia facts;
   facts.coordinate = node;
-  facts.link = body_of(reader, inertia);
+  facts.link = *body;
   facts.about = *about;
   facts.seen_by = frame;
   facts.value.mass = *mass_scale * *mass;
@@ -67,7 +80,10 @@ void read_acceleration(GraphReader& reader, Structure& structure, Id node) {
     return;  // computed elsewhere
   }
   const Id relation =
-      reader.has(node, ids.of_acceleration) ? reader.view.object(node, ids.of_acceleration) : node;
+      reader.has(node, ids.of_acceleration)
+          ? reader.at_most_one(node, ids.of_acceleration, "the acceleration of the coordinates")
+          : node;
+  if (!relation) return;
   const auto of = reader.one(relation, ids.of, "the body that accelerates");
   const auto wrt =
       reader.one(relation, ids.with_respect_to, "the body with respect to which it accelerates");
@@ -95,6 +111,15 @@ void check_velocity(GraphReader& reader, Id node) {
 }
 
 }  // namespace
+
+bool states_inertia(const GraphReader& reader, Id node) {
+  const Ids& ids = reader.ids;
+  for (const Id number :
+       {ids.mass, ids.first_moment, ids.ixx, ids.iyy, ids.izz, ids.ixy, ids.ixz, ids.iyz}) {
+    if (reader.has(node, number)) return true;
+  }
+  return false;
+}
 
 void read_inertias(GraphReader& reader, Structure& structure) {
   const Ids& ids = reader.ids;

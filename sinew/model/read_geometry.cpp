@@ -11,7 +11,7 @@ namespace {
 
 int add_frame(GraphReader& reader, Structure& structure, Id iri, int link) {
   const int index = static_cast<int>(structure.frames.size());
-  const Id origin = reader.view.object(iri, reader.ids.origin);
+  const Id origin = reader.at_most_one(iri, reader.ids.origin, "the frame's origin");
   structure.frames.push_back({iri, origin, link});
   structure.frame_by_iri.emplace(iri, index);
   if (origin) structure.frames_at[origin].push_back(index);
@@ -29,7 +29,7 @@ Id relation_of(GraphReader& reader, Id coordinate, Id property, std::string_view
 // A stated rotation, made orthonormal; nothing where it is none.
 std::optional<Matrix3> read_rotation(GraphReader& reader, Id node) {
   const auto R = reader.direction_cosines(node);
-  if (!R || !reader.scale(node, dimension::kNone, "the direction cosines")) return std::nullopt;
+  if (!R) return std::nullopt;
   const double error = orthonormality_error(*R);
   if (error > kOrthonormalError) {
     reader.error(node, reader.ids.cosine_x,
@@ -111,6 +111,22 @@ void read_position_coordinates(GraphReader& reader, Structure& structure) {
   }
 }
 
+// Where the origin of frame `of` is in frame `wrt`, which is turned by R against it: what a
+// position says that is of either origin with respect to the other one and seen by either frame.
+std::optional<Vector3> position_between(const Structure& structure, int of, int wrt,
+                                        const Matrix3& R) {
+  const Id here = structure.frames[of].origin, there = structure.frames[wrt].origin;
+  if (here && here == there) return Vector3{0, 0, 0};
+  for (const Structure::Position& p : structure.positions) {
+    const bool forward = p.of == here && p.with_respect_to == there;
+    const bool backward = p.of == there && p.with_respect_to == here;
+    if ((!forward && !backward) || (p.seen_by != wrt && p.seen_by != of)) continue;
+    const Vector3 seen_by_wrt = p.seen_by == wrt ? p.position : R * p.position;
+    return forward ? seen_by_wrt : -seen_by_wrt;
+  }
+  return std::nullopt;
+}
+
 // An orientation of one frame in another, and a position of their origins, make a pose.
 void read_orientation_coordinates(GraphReader& reader, Structure& structure) {
   const Ids& ids = reader.ids;
@@ -124,12 +140,15 @@ void read_orientation_coordinates(GraphReader& reader, Structure& structure) {
                              "the frame with respect to which it is oriented");
     const auto R = read_rotation(reader, node);
     if (of == kNone || wrt == kNone || !R) continue;
-    for (const Structure::Position& p : structure.positions) {
-      if (p.of == structure.frames[of].origin &&
-          p.with_respect_to == structure.frames[wrt].origin && p.seen_by == wrt) {
-        structure.poses.push_back({node, of, wrt, {*R, p.position}});
-        break;
-      }
+    if (const auto p = position_between(structure, of, wrt, *R)) {
+      structure.poses.push_back({node, of, wrt, {*R, *p}});
+    } else {
+      reader.warning(node, ids.of_orientation,
+                     fmt::format("no position of the origin of <{}> with respect to that of <{}> "
+                                 "is seen by one of the two frames; the orientation places nothing",
+                                 reader.text(structure.frames[of].iri),
+                                 reader.text(structure.frames[wrt].iri)),
+                     "state a PositionCoordinate of it as well, or a PoseCoordinate");
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <unordered_set>
 
 #include "sinew/model/read_joints.h"
 #include "sinew/model/sizes.h"
@@ -54,6 +55,11 @@ class Properties {
   void scaled(Id node, Id property, const data::Dimension& dimension, std::string_view what,
               double& to) {
     if (!reader_.has(node, property)) return;
+    if (!stated_.insert(&to).second) {
+      reader_.error(node, property, fmt::format("{} is stated already", what),
+                    "state it once for each degree of freedom");
+      return;
+    }
     const auto value = reader_.number(node, property);
     const auto scale = reader_.scale(node, dimension, what);
     if (value && scale) to = *value * *scale;
@@ -203,6 +209,7 @@ class Properties {
   const Ids& ids_ = reader_.ids;
   std::unordered_map<Id, Joint*> joints_;
   std::unordered_map<Id, Structure::Motion*> motions_;
+  std::unordered_set<const double*> stated_;  // limits and pitches
 };
 
 }  // namespace

@@ -12,6 +12,9 @@ namespace sinew::model {
 std::optional<Vector3> read_axis(GraphReader& reader, const Structure& structure, Id joint,
                                  const Structure::Joint& facts);
 
+// All types that say how a joint moves; a joint is of one of them.
+std::vector<Id> joint_types(const Ids& ids);
+
 // What a compound joint's type says; nothing for other joints.
 std::optional<JointKind> compound_kind(const GraphReader& reader, Id joint);
 

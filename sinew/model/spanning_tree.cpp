@@ -133,11 +133,22 @@ bool choose_root(const Search& in, const std::string& base, SpanningTree& tree) 
       tree.root_body = body_of_link(in, tree.root_link);
     }
   }
-  if (tree.root_frame == kNone) tree.root_frame = root_frame_of(in.structure, tree.root_link);
+  bool guessed = false;
+  if (tree.root_frame == kNone) {
+    tree.root_frame = root_frame_of(in.structure, tree.root_link, &guessed);
+  }
   if (tree.root_frame == kNone) {
     const Id link = in.structure.links[tree.root_link].iri;
     in.error(link, "the base has no frame", "give it a Frame among its simplices");
     return false;
+  }
+  if (guessed) {
+    in.warning(in.structure.links[tree.root_link].iri,
+               fmt::format("the model does not say which frame of the base is its own: <{}> is "
+                           "taken, and what is seen from the base is seen from it",
+                           in.text(in.structure.frames[tree.root_frame].iri)),
+               "name a frame as the base, or place all other frames of the link with respect to "
+               "one");
   }
   return true;
 }
@@ -274,8 +285,9 @@ void prune(const Search& in, const std::vector<std::string>& tips, SpanningTree&
 
 }  // namespace
 
-int root_frame_of(const Structure& structure, int link) {
+int root_frame_of(const Structure& structure, int link, bool* guessed) {
   const std::vector<int>& frames = structure.links[link].frames;
+  if (guessed) *guessed = false;
   if (frames.empty()) return kNone;
   const auto here = [&](int frame) { return structure.frames[frame].link == link; };
   for (const Structure::Joint& joint : structure.joints) {
@@ -288,11 +300,16 @@ int root_frame_of(const Structure& structure, int link) {
     placed.push_back(pose.of);
     any = true;
   }
-  if (any) {
-    for (const int frame : frames) {
-      if (std::find(placed.begin(), placed.end(), frame) == placed.end()) return frame;
-    }
+  const auto is_placed = [&](int frame) {
+    return std::find(placed.begin(), placed.end(), frame) != placed.end();
+  };
+  const auto unplaced = std::find_if_not(frames.begin(), frames.end(), is_placed);
+  if (guessed) {
+    *guessed = frames.size() > 1 &&
+               (unplaced == frames.end() ||
+                std::find_if_not(unplaced + 1, frames.end(), is_placed) != frames.end());
   }
+  if (any && unplaced != frames.end()) return *unplaced;
   for (const Structure::Inertia& inertia : structure.inertias) {
     if (here(inertia.seen_by)) return inertia.seen_by;
   }

@@ -25,7 +25,8 @@ struct SpanningTree {
 // The frame that a link's own data are given in: where its joint attaches it, else the frame from
 // which its others are placed, else that of its inertia, else its first. kNone for a link without
 // frames.
-int root_frame_of(const Structure& structure, int link);
+// `guessed`: whether the model leaves it open, there being several such frames, or none.
+int root_frame_of(const Structure& structure, int link, bool* guessed = nullptr);
 
 // See NormaliseOptions for `base` and `tips`. Errors: no root or several, a loop, no way to a tip.
 SpanningTree find_spanning_tree(const Structure& structure, const RigidBodies& bodies,

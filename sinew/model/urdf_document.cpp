@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
@@ -41,6 +42,10 @@ class Reader {
             fault == tinyxml2::XML_ERROR_EMPTY_DOCUMENT ? "give a URDF file, which is not empty"
             : fault == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED
                 ? "nest elements less: a URDF needs five levels"
+            : fault == tinyxml2::XML_ERROR_PARSING_DECLARATION
+                ? "begin with <?xml version=\"1.0\"?>, and leave any other <? … ?> out"
+            : text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")
+                ? "save the file as UTF-8: it begins as UTF-16 does"
                 : "close every element, and quote every attribute");
       return std::move(document_);
     }
@@ -49,6 +54,10 @@ class Reader {
       error(robot ? robot->GetLineNum() : 1, "", "the document is no <robot>",
             "give a URDF file, with <robot> as its root");
       return std::move(document_);
+    }
+    if (const Element* next = robot->NextSiblingElement()) {
+      error(next->GetLineNum(), "", fmt::format("<{}> stands after the robot's end", next->Name()),
+            "give one <robot>, with everything in it");
     }
     document_.line = line(robot);
     document_.robot = attribute(robot, "name").value_or("");
@@ -104,6 +113,23 @@ class Reader {
       warning(element, what + "; it is left out", remedy);
     } else {
       error(element, what, remedy + (xacro ? "" : ", or load leniently to leave it out"));
+    }
+  }
+
+  // What an attribute of another name says would be lost: a misspelt one, or one of a later URDF
+  // (quat_xyzw). Where that does not change what moves, it is enough to say so.
+  void only(const Element* element, std::initializer_list<std::string_view> known,
+            bool mechanics = true) {
+    for (const auto* a = element->FirstAttribute(); a; a = a->Next()) {
+      const std::string_view name = a->Name();
+      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+      const std::string what = fmt::format("<{}> has no attribute {}", element->Name(), name);
+      const std::string remedy = fmt::format("write {}", fmt::join(known, ", "));
+      if (mechanics && !lenient_) {
+        error(element, what, remedy + "; or load leniently to leave it out");
+      } else {
+        warning(element, what + "; it is left out", remedy);
+      }
     }
   }
 
@@ -171,6 +197,7 @@ class Reader {
 
   Origin read_origin(const Element* element) {
     Origin origin;
+    only(element, {"xyz", "rpy"});
     three(element, "xyz", origin.xyz);
     three(element, "rpy", origin.rpy);
     return origin;
@@ -219,9 +246,12 @@ class Reader {
       if (name == "origin") {
         if (once(child, origin)) inertial.origin = read_origin(child);
       } else if (name == "mass") {
-        if (once(child, mass)) inertial.mass = required(child, "value");
+        if (!once(child, mass)) continue;
+        only(child, {"value"});
+        inertial.mass = required(child, "value");
       } else if (name == "inertia") {
         if (!once(child, inertia)) continue;
+        only(child, {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"});
         inertial.ixx = required(child, "ixx"), inertial.ixy = required(child, "ixy");
         inertial.ixz = required(child, "ixz"), inertial.iyy = required(child, "iyy");
         inertial.iyz = required(child, "iyz"), inertial.izz = required(child, "izz");
@@ -307,15 +337,21 @@ class Reader {
       } else if (name == "child") {
         if (once(e, child)) joint.child = attribute(e, "link").value_or("");
       } else if (name == "axis") {
-        if (once(e, axis)) knows_axis = three(e, "xyz", joint.axis);
+        if (!once(e, axis)) continue;
+        only(e, {"xyz"});
+        knows_axis = three(e, "xyz", joint.axis);
       } else if (name == "limit") {
         if (!once(e, limit)) continue;
+        only(e, {"lower", "upper", "effort", "velocity"}, false);
         joint.limit = Limit{optional(e, "lower"), optional(e, "upper"), optional(e, "effort"),
                             optional(e, "velocity")};
       } else if (name == "dynamics") {
-        if (once(e, dynamics)) joint.dynamics = {optional(e, "damping"), optional(e, "friction")};
+        if (!once(e, dynamics)) continue;
+        only(e, {"damping", "friction"}, false);
+        joint.dynamics = {optional(e, "damping"), optional(e, "friction")};
       } else if (name == "mimic") {
         if (!once(e, mimic)) continue;
+        only(e, {"joint", "multiplier", "offset"});
         joint.mimic =
             Mimic{attribute(e, "joint").value_or(""), optional(e, "multiplier").value_or(1),
                   optional(e, "offset").value_or(0)};

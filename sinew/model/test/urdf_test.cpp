@@ -267,6 +267,16 @@ TEST(Urdf, SaysWhatItLeavesOut) {
             "robot's mechanics");
 }
 
+TEST(Urdf, RefusesWhatStandsAfterTheRobotAndTextThatIsNoUtf8) {
+  Model two, wide;
+  load_texts(two, {{"robot.urdf", "<robot name=\"r\"><link name=\"a\"/></robot>\n<robot/>"}});
+  EXPECT_EQ(first_error(two),
+            "robot.urdf:2: <robot> stands after the robot's end; give one <robot>, with everything "
+            "in it");
+  load_texts(wide, {{"robot.urdf", "\xFF\xFE<robot"}});
+  EXPECT_NE(first_error(wide).find("save the file as UTF-8"), std::string::npos);
+}
+
 struct FaultCase {
   const char* name;
   std::string body;
@@ -327,6 +337,13 @@ const std::vector<FaultCase>& faults() {
       {"UnknownElement", two + joint_text("<spring/>"),
        "robot.urdf:8:", "<spring> is no element of a URDF <joint>"},
       {"Xacro", "<xacro:property name=\"a\"/>", "robot.urdf:2:", "xacro"},
+      {"MisspeltAxis", two + joint_text("<axis xzy=\"0 0 1\"/>"),
+       "robot.urdf:8:", "<axis> has no attribute xzy"},
+      {"LaterOrigin", two + joint_text("<origin quat_xyzw=\"0 0 0 1\"/>"),
+       "robot.urdf:8:", "<origin> has no attribute quat_xyzw"},
+      {"MisspeltMimic", two + joint_text("<mimic joint=\"k\" ratio=\"2\"/>"),
+       "robot.urdf:8:", "<mimic> has no attribute ratio"},
+      {"InstructionInside", "<?include b?>\n" + two, "robot.urdf:2:", "no well-formed XML"},
       {"UnknownMimic", two + joint_text("<mimic joint=\"other\"/>"),
        "robot.urdf:6:", "mimics 'other'"},
   };
