@@ -15,17 +15,30 @@ void append_arithmetic(std::string& text, const program::Node& node, Value value
   const std::string* const c = fused ? &value(node.c.node()) : nullptr;
   const std::string& b = value(node.b.node());
   const std::string& a = value(node.a.node());
-  if (node.a.negative()) text += '-';
-  text += a;
   const auto plus = [&](program::Ref term, const std::string& name) {
     text += term.negative() ? " - " : " + ";
     text += name;
   };
-  if (node.op == program::Op::kAdd) return plus(node.b, b);
+  if (node.op == program::Op::kAdd) {
+    if (node.a.negative()) text += '-';
+    text += a;
+    return plus(node.b, b);
+  }
+  // The sign of a product belongs to all of it: compilers take it into a fused operation, but a
+  // negative factor that several of them read is computed on its own.
+  const bool negative = node.a.negative() != node.b.negative();
+  const bool subtracted = fused && negative && !node.c.negative();
+  if (subtracted) {
+    text += *c;
+    text += " - ";
+  } else if (negative) {
+    text += "-(";
+  }
+  text += a;
   text += node.op == program::Op::kDivide ? " / " : " * ";
-  if (node.b.negative()) text += '-';
   text += b;
-  if (fused) plus(node.c, *c);
+  if (negative && !subtracted) text += ')';
+  if (fused && !subtracted) plus(node.c, *c);
 }
 
 }  // namespace sinew::backend

@@ -9,6 +9,7 @@
 
 #include "sinew/backend/c_arithmetic.h"
 #include "sinew/backend/c_flat_emitter.h"
+#include "sinew/backend/c_flat_zeros.h"
 #include "sinew/backend/numbers.h"
 #include "sinew/base/error.h"
 
@@ -18,13 +19,6 @@ using program::Computation;
 using program::Node;
 using program::Op;
 using program::Ref;
-
-namespace {
-
-// Fewer zeros than this are written one by one.
-constexpr std::size_t kLeastZeros = 4;
-
-}  // namespace
 
 FlatEmitter::FlatEmitter(const Computation& computation, const FlatLayout& layout,
                          const FlatOptions& options)
@@ -246,33 +240,19 @@ void FlatEmitter::later_results() {
   for (const std::uint32_t k : later_) {
     if (!dag_.is_constant(computation_.results[k])) value(computation_.results[k]);
   }
-  for (std::size_t at = 0; at < later_.size();) {
-    const std::size_t zeros = block_form_ || strided() ? 0 : zeros_from(at);
-    if (zeros >= kLeastZeros) {
-      const FlatPlace& place = layout_.results[later_[at]];
-      touched_.insert(place.array);
-      line(
-          fmt::format("memset({0} + {1}, 0, {2} * sizeof *{0});", place.array, place.index, zeros));
-      at += zeros;
-    } else {
-      write(later_[at++]);
-    }
-  }
-}
-
-// How many results from this one on are 0 and lie side by side.
-std::size_t FlatEmitter::zeros_from(std::size_t at) const {
-  std::size_t n = 0;
-  const FlatPlace& first = layout_.results[later_[at]];
-  for (; at + n < later_.size(); ++n) {
-    const std::uint32_t k = later_[at + n];
+  std::vector<std::uint32_t> zeros;  // of `out`
+  for (const std::uint32_t k : later_) {
     const FlatPlace& place = layout_.results[k];
-    if (!dag_.is_constant(computation_.results[k], 0.0) || place.index != first.index + n ||
-        std::string_view(place.array) != first.array) {
-      break;
+    if (options_.form == FlatForm::kSample && dag_.is_constant(computation_.results[k], 0.0) &&
+        std::string_view(place.array) == "out") {
+      zeros.push_back(place.index);
+    } else {
+      write(k);
     }
   }
-  return n;
+  if (zeros.empty()) return;
+  touched_.insert("out");
+  write_zeros(*block_, given_, {"out", number(0.0), upper_}, zeros);
 }
 
 // A vector of zeros, once in each function. C++ has no compound literals.

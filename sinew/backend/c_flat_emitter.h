@@ -54,7 +54,6 @@ class FlatEmitter {
   void find_results();
   void results_of(std::uint32_t node);
   void later_results();
-  std::size_t zeros_from(std::size_t at) const;
   void declare_zero();
   void write(std::uint32_t k);
 

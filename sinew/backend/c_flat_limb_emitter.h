@@ -44,6 +44,7 @@ class LimbEmitter {
 
   // Nodes.
   std::string text(const Source& source);
+  bool is_zero(const Source& source) const;
   template <typename Lane>
   std::string vector(Lane lane) const;
   std::string zero();
@@ -59,7 +60,8 @@ class LimbEmitter {
   // Results.
   void find_results();
   void write(std::uint32_t k);
-  std::size_t zeros_from(std::size_t at) const;
+  void write_later_results();
+  void write_results(std::uint32_t node);
 
   // Sines and cosines.
   struct Numbers {  // of an array, from this one on

@@ -6,6 +6,7 @@
 
 #include "sinew/backend/c_arithmetic.h"
 #include "sinew/backend/c_flat_limb_emitter.h"
+#include "sinew/backend/c_flat_zeros.h"
 #include "sinew/backend/numbers.h"
 #include "sinew/program/dag/evaluate.h"
 
@@ -20,9 +21,6 @@ using program::Op;
 using program::Ref;
 
 namespace {
-
-// Fewer zeros than this are written one by one.
-constexpr std::size_t kLeastZeros = 4;
 
 bool is_trigonometric(const Node& node) { return node.op == Op::kSin || node.op == Op::kCos; }
 
@@ -61,22 +59,12 @@ LimbBody LimbEmitter::run() {
     for (const std::uint32_t i : orders[at_]) {
       begin_step();
       if (!in_memory_.contains(nodes_.of(at_, i))) value(i);
-      for (const std::uint32_t k : results_of_[at_][i]) write(k);
+      write_results(i);
       end_step();
     }
   }
   begin_step();
-  for (std::size_t at = 0; at < later_.size();) {
-    const std::size_t zeros = zeros_from(at);
-    if (zeros >= kLeastZeros) {
-      const FlatPlace& place = layout_.results[later_[at]];
-      line(
-          fmt::format("memset({0} + {1}, 0, {2} * sizeof *{0});", place.array, place.index, zeros));
-      at += zeros;
-    } else {
-      write(later_[at++]);
-    }
-  }
+  write_later_results();
   return std::move(body_);
 }
 
@@ -108,18 +96,50 @@ void LimbEmitter::write(std::uint32_t k) {
   line(fmt::format("{}[{}] = {};", place.array, place.index, text(program_.results[k])));
 }
 
-// How many results from this one on are 0 and lie side by side.
-std::size_t LimbEmitter::zeros_from(std::size_t at) const {
-  std::size_t n = 0;
-  const std::uint32_t first = layout_.results[later_[at]].index;
-  for (; at + n < later_.size(); ++n) {
-    const LimbSource& source = program_.results[later_[at + n]];
-    if (source.kind != LimbSource::Kind::kConstant || source.value != 0.0 ||
-        layout_.results[later_[at + n]].index != first + n) {
-      break;
+// Of a node that has just been computed. A vector of which several lanes are wanted negative is
+// negated once.
+void LimbEmitter::write_results(std::uint32_t node) {
+  const std::vector<std::uint32_t>& results = results_of_[at_][node];
+  const auto is_negative = [&](std::uint32_t k) {
+    const Source& source = program_.results[k];
+    return region().computation.results[source.index].negative() != source.negative;
+  };
+  const auto negatives = std::count_if(results.begin(), results.end(), is_negative);
+  std::string turned;
+  if (in_lanes() && negatives > 1) {
+    const std::string name = name_of(at_, node);
+    turned = given_.temporary();
+    body_.code.add({"  const ", type(), " ", turned, " = -", name, ";"});
+  }
+  for (const std::uint32_t k : results) {
+    if (turned.empty() || !is_negative(k)) {
+      write(k);
+    } else {
+      const FlatPlace& place = layout_.results[k];
+      line(fmt::format("{}[{}] = {}[{}];", place.array, place.index, turned,
+                       program_.results[k].lane));
     }
   }
-  return n;
+}
+
+// Those that no region computes: among them many zeros.
+void LimbEmitter::write_later_results() {
+  std::vector<std::uint32_t> zeros;
+  for (const std::uint32_t k : later_) {
+    if (is_zero(program_.results[k])) {
+      zeros.push_back(layout_.results[k].index);
+    } else {
+      write(k);
+    }
+  }
+  write_zeros(body_.code, given_, {"out", number(0.0), upper_}, zeros);
+}
+
+bool LimbEmitter::is_zero(const LimbSource& source) const {
+  if (source.kind == LimbSource::Kind::kConstant) return source.value == 0.0;
+  if (source.kind != LimbSource::Kind::kRegion) return false;
+  const Computation& from = program_.regions[source.region].computation;
+  return from.dag.is_constant(from.results[source.index], 0.0);
 }
 
 // A number where plain numbers are wanted.

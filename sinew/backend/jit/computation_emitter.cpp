@@ -141,6 +141,10 @@ LLVMValueRef ComputationEmitter::compute(std::uint32_t index) {
       return with_sign(ir_.multiply(value(node.a.node()), value(node.b.node())),
                        node.a.negative() != node.b.negative());
     case Op::kFma:
+      if (!fuse_ && node.a.negative() != node.b.negative() && !node.c.negative()) {
+        return ir_.subtract(value(node.c.node()),
+                            ir_.multiply(value(node.a.node()), value(node.b.node())));
+      }
       return ir_.multiply_add(signed_value(node.a), signed_value(node.b), signed_value(node.c));
     case Op::kDivide:
       return with_sign(ir_.divide(value(node.a.node()), value(node.b.node())),

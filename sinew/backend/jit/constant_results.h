@@ -10,7 +10,8 @@
 
 namespace sinew::backend {
 
-// Stores what has a value at its place in `out`, a pointer to numbers of the type.
+// Stores what has a value at its place in `out`, a pointer to numbers of the type. Blocks of zeros
+// (zero_blocks.h) are loops, so that the builder goes on in another basic block.
 void store_constant_results(LLVMBuilderRef builder, LLVMTypeRef number, LLVMValueRef out,
                             const std::vector<std::optional<double>>& results);
 

@@ -57,13 +57,13 @@ Dag::Dag() : table_(1U << 10U, 0) {}
 
 void Dag::reserve(std::uint32_t nodes) {
   nodes_.reserve(nodes);
-  std::size_t size = table_.size();
-  while (size < std::size_t{nodes} * 2) size *= 2;
-  if (size > table_.size()) rehash(size);
+  if (table_.size() < std::size_t{nodes} * 2) rehash(std::size_t{nodes} * 2);
 }
 
 // Size: a power of two, at least twice the number of nodes.
-void Dag::rehash(std::size_t size) {
+void Dag::rehash(std::size_t least) {
+  std::size_t size = table_.size();
+  while (size < least || size < nodes_.size() * 2) size *= 2;
   table_.assign(size, 0);
   const std::uint64_t mask = table_.size() - 1;
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
@@ -88,12 +88,16 @@ Ref Dag::find_or_add(const Node& node, std::uint64_t hash, Same same) {
     if (same(nodes[found])) return Ref::of(found);
   }
   const std::size_t count = nodes_.size();
-  if (count >= kMaximumNodes) throw too_many_nodes();
-  const auto index = static_cast<std::uint32_t>(count);
-  nodes_.push_back(node);
+  const auto index = append(node).node();
   table[at] = entry(index, hash);
   if (count * 2 + 2 > places) rehash(places * 2);
   return Ref::of(index);
+}
+
+Ref Dag::append(const Node& node) {
+  if (nodes_.size() >= kMaximumNodes) throw too_many_nodes();
+  nodes_.push_back(node);
+  return Ref::of(static_cast<std::uint32_t>(nodes_.size() - 1));
 }
 
 Ref Dag::intern(const Node& like) {

@@ -13,7 +13,7 @@
 namespace sinew::program {
 
 enum class Op : std::uint8_t {
-  kConstant,  // value, never negative
+  kConstant,  // value, never negative before choose_signs() (passes/choose_signs.h)
   kInput,     // index
   kAdd,       // a + b
   kMultiply,  // a * b
@@ -103,6 +103,11 @@ class Dag {
   // The operation of `like` on other operands.
   Ref make(const Node& like, Ref a, Ref b, Ref c);
 
+  // A node as it stands, signs and all, though there may be the same one: for the pass that chooses
+  // signs, and for none that folds or shares anything afterwards.
+  Ref append(const Node& node);
+  void reserve_nodes(std::size_t nodes) { nodes_.reserve(nodes); }
+
   // Nodes that are made from now on come from this closure.
   void set_origin(std::uint32_t closure) { origin_ = closure; }
 
@@ -130,7 +135,7 @@ class Dag {
   Ref new_sum(Ref a, Ref b);
   // Preconditions: the operands are positive and in their order.
   Ref new_product(Ref a, Ref b);
-  void rehash(std::size_t size);
+  void rehash(std::size_t least);
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> table_;  // open addressing: node + 1 and 8 bits of its hash; 0 is free

@@ -1,12 +1,14 @@
 #include "sinew/program/limbs/limb_program.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <map>
 
 #include "sinew/program/interface.h"
 #include "sinew/program/kernels.h"
 #include "sinew/program/limbs/find_limbs.h"
+#include "sinew/program/limbs/limb_signs.h"
 
 namespace sinew::program {
 namespace {
@@ -23,15 +25,6 @@ using Sources = std::vector<LimbSource>;  // one for each lane
 LimbSource constant(double value) {
   LimbSource source;
   source.value = value;
-  return source;
-}
-
-LimbSource negated(LimbSource source) {
-  if (source.kind == LimbSource::Kind::kConstant) {
-    source.value = -source.value;
-  } else {
-    source.negative = !source.negative;
-  }
   return source;
 }
 
@@ -303,7 +296,8 @@ class Recorder {
 };
 
 // Optimises every region, the last one first, without what nobody needs.
-void optimise_regions(LimbProgram& program, const OptimiseOptions& options) {
+void optimise_regions(LimbProgram& program, OptimiseOptions options) {
+  options.choose_signs = false;
   std::vector<std::vector<bool>> wanted;
   for (const LimbRegion& region : program.regions) {
     wanted.emplace_back(region.computation.results.size(), false);
@@ -341,6 +335,24 @@ void optimise_regions(LimbProgram& program, const OptimiseOptions& options) {
       for (LimbSource& source : sources) renumber(source);
     }
   }
+}
+
+void choose_signs_of(LimbProgram& program, const OptimiseOptions& options) {
+  if (!options.trace) return choose_signs(program);
+  PassReport report;
+  report.name = "choose signs of limbs";
+  report.before = program.operations();
+  report.negations_before = count_negations(program);
+  const auto start = std::chrono::steady_clock::now();
+  choose_signs(program);
+  report.time_us =
+      std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+  report.after = program.operations();
+  report.negations_after = count_negations(program);
+  for (const LimbRegion& region : program.regions) {
+    report.nodes_after += region.computation.dag.size();
+  }
+  options.trace(report);
 }
 
 void add(OperationCount& sum, const OperationCount& more) {
@@ -383,6 +395,7 @@ std::optional<LimbProgram> limb_program(const Program& program, const OperationC
   if (recorder.circular()) return std::nullopt;
   optimise_regions(result, options);
   if (weight(result.operations()) > (1 - kLeastSaving) * weight(scalar)) return std::nullopt;
+  choose_signs_of(result, options);
   return result;
 }
 

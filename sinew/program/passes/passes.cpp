@@ -5,6 +5,7 @@
 #include <chrono>
 #include <span>
 
+#include "sinew/program/passes/choose_signs.h"
 #include "sinew/program/passes/factor_sums.h"
 #include "sinew/program/passes/flatten_sums.h"
 #include "sinew/program/passes/fuse_multiply_add.h"
@@ -28,8 +29,8 @@ struct SumPass {
   void (*run)(Polynomials&);
 };
 
-// Constants, identities, value numbering and signs need no pass: the graph's constructors see to
-// them whenever a pass writes a graph.
+// Constants, identities and value numbering need no pass: the graph's constructors see to them
+// whenever a pass writes a graph, and give each node the one sign in which others find it.
 
 constexpr GraphPass kFirst[] = {
     {"share denominators", share_denominators},
@@ -48,6 +49,9 @@ constexpr SumPass kFinish[] = {
     {"reassociate", reassociate},
     {"fuse multiply-add", fuse_multiply_add},
 };
+constexpr GraphPass kSigns[] = {
+    {"choose signs", choose_signs},
+};
 constexpr GraphPass kLast[] = {
     {"schedule", schedule},
 };
@@ -60,10 +64,12 @@ void run(std::string_view name, const Computation& computation, const OptimiseOp
   PassReport report;
   report.name = name;
   report.before = count_operations(computation);
+  report.negations_before = count_negations(computation);
   const Clock::time_point start = Clock::now();
   pass();
   report.time_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
   report.after = count_operations(computation);
+  report.negations_after = count_negations(computation);
   report.nodes_after = computation.dag.size();
   options.trace(report);
 }
@@ -94,13 +100,19 @@ Computation optimise(Computation computation, const OptimiseOptions& options) {
   }
   run(kFinish, system, options);
   computation = std::move(system.graph);
+  if (options.choose_signs) run(kSigns, computation, options);
   run(kLast, computation, options);
   return computation;
 }
 
 std::string to_string(const PassReport& r) {
-  return fmt::format("{}: {} + {} -> {} + {} operations, {} nodes, {:.0f} us", r.name, r.before.add,
-                     r.before.multiply, r.after.add, r.after.multiply, r.nodes_after, r.time_us);
+  const std::string negations =
+      r.negations_before == r.negations_after
+          ? std::string()
+          : fmt::format("{} -> {} negations, ", r.negations_before, r.negations_after);
+  return fmt::format("{}: {} + {} -> {} + {} operations, {}{} nodes, {:.0f} us", r.name,
+                     r.before.add, r.before.multiply, r.after.add, r.after.multiply, negations,
+                     r.nodes_after, r.time_us);
 }
 
 }  // namespace sinew::program

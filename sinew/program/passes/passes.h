@@ -14,11 +14,13 @@ struct PassReport {
   std::string_view name;
   OperationCount before, after;
   std::uint32_t nodes_after = 0;
+  std::uint32_t negations_before = 0, negations_after = 0;  // choose_signs.h
   double time_us = 0.0;
 };
 
 struct OptimiseOptions {
   std::function<void(const PassReport&)> trace;  // called after each pass; may be empty
+  bool choose_signs = true;  // not where computations read from each other: limb_signs.h
 };
 
 // The same results (to round-off) with fewer operations, in a good order to compute them.

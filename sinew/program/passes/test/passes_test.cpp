@@ -7,6 +7,7 @@
 #include <random>
 
 #include "sinew/program/dag/evaluate.h"
+#include "sinew/program/passes/choose_signs.h"
 #include "sinew/program/passes/factor_sums.h"
 #include "sinew/program/passes/fuse_multiply_add.h"
 #include "sinew/program/passes/latency.h"
@@ -198,6 +199,7 @@ INSTANTIATE_TEST_SUITE_P(Passes, EveryPass,
                                          PassCase{"share_sums", by<share_sums>},
                                          PassCase{"reassociate", by<reassociate>},
                                          PassCase{"fuse_multiply_add", by<fuse_multiply_add>},
+                                         PassCase{"choose_signs", choose_signs},
                                          PassCase{"schedule", schedule},
                                          PassCase{"optimise", optimise_all}),
                          [](const auto& info) { return std::string(info.param.name); });
