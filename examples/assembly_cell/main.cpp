@@ -105,41 +105,26 @@ std::string names_in(const Space& space, const std::string& area) {
   return names.empty() ? "nothing" : names;
 }
 
-}  // namespace
+// What the controller writes of the arm.
+struct Arm {
+  BatchWriter joints;
+  std::vector<double> q = {0.1, 0.4, -0.3, 1.2, 0.2, 0.7, -0.5};
+};
 
-int main(int count, char** arguments) try {
-  if (count != 2) {
-    std::cerr << "usage: assembly_cell SOURCE_FOLDER\n";
-    return 2;
-  }
-  const std::filesystem::path source = arguments[1], folder = source / "examples/assembly_cell";
-  graph::Store arm_store;
-  graph::Places arm_places;
-  Report report;
-  model::load_files(std::vector<std::filesystem::path>{source / "robots/gen3/chain.jsonld",
-                                                       source / "robots/gen3/dynamics.jsonld",
-                                                       source / "robots/gen3/geometry.jsonld"},
-                    {}, arm_store, arm_places, report);
-  const model::Tree arm = model::normalise(arm_store, arm_places, {}, report);
-  report.throw_if_errors();
+const Pose kSeen = {{}, {0.1, -0.2, 1.1}};  // the adaptor, by the camera
+constexpr const char* kMagazine = "storage magazine";
 
-  // First variant: the controller says where the end effector is. Second: the world computes it.
-  CellWorld measured(folder,
-                     {"scene.jsonld", "task.jsonld", "measured.jsonld", "components.jsonld"});
-  CellWorld computed(
-      folder, {"scene.jsonld", "task.jsonld", "arm.jsonld", "shapes.jsonld", "components.jsonld"},
-      &arm, &arm_store.terms());
-  expect(!measured.configuration.has_errors(), "the first variant's configuration has no conflict");
+// What `who` is told when it is refused; empty when it is not.
+std::string write(CellWorld& cell, const char* what, const Pose& X, const std::string& who,
+                  double when) {
+  return refusal([&] {
+    expect(cell.world.write(cell.measurement(what), at_s(when), X, {who}) == Status::kOk,
+           std::string(what) + " is written");
+  });
+}
 
+void see_rights(CellWorld& measured) {
   fmt::print("-- who may write what\n");
-  const Pose seen = {{}, {0.1, -0.2, 1.1}};  // the adaptor, by the camera
-  const auto write = [](CellWorld& cell, const char* what, const Pose& X, const std::string& who,
-                        double when) {
-    return refusal([&] {
-      expect(cell.world.write(cell.measurement(what), at_s(when), X, {who}) == Status::kOk,
-             std::string(what) + " is written");
-    });
-  };
   for (const char* fixed : {"measured-F1-F0", "measured-F3-F0", "measured-F4-F0"}) {
     expect(!write(measured, fixed, Pose{}, kCamera, 1).empty(), "the camera moves nothing static");
   }
@@ -148,15 +133,15 @@ int main(int count, char** arguments) try {
   expect(
       refused.find(kCamera) != std::string::npos && refused.find(kController) != std::string::npos,
       "the camera is refused the controller's measurement, and both are named");
-  expect(!write(measured, "measured-F2-F3", seen, kController, 1).empty(),
+  expect(!write(measured, "measured-F2-F3", kSeen, kController, 1).empty(),
          "the controller is refused the camera's");
+}
 
+void compare_variants(CellWorld& measured, CellWorld& computed, Arm& arm) {
   fmt::print("-- Pose(F2, F5), measured and computed\n");
-  std::vector<double> q = {0.1, 0.4, -0.3, 1.2, 0.2, 0.7, -0.5};
-  BatchWriter joints = computed.world.claim(computed.robot.positions, {kController});
-  expect(joints.write(at_s(1), q) == Status::kOk, "the joint positions are written");
-  write(computed, "measured-F2-F3", seen, kCamera, 1);
-  write(measured, "measured-F2-F3", seen, kCamera, 1);
+  expect(arm.joints.write(at_s(1), arm.q) == Status::kOk, "the joint positions are written");
+  write(computed, "measured-F2-F3", kSeen, kCamera, 1);
+  write(measured, "measured-F2-F3", kSeen, kCamera, 1);
   write(measured, "measured-F5-F4", computed.pose("F5", "F4", at_s(1)), kController, 1);
   const Pose by_controller = measured.pose("F2", "F5", at_s(1));
   const Pose by_kinematics = computed.pose("F2", "F5", at_s(1));
@@ -166,13 +151,13 @@ int main(int count, char** arguments) try {
   PreparedPose way = computed.world.prepare_pose(
       {.of = computed.frame("F2"), .with_respect_to = computed.frame("F5")});
   expect(way.measured_steps() == 8, "seven joints and the camera are on the way");
+}
 
+void look_around(const CellWorld& computed, Space& space) {
   fmt::print("-- what is where\n");
-  Space space(computed.world, computed.frame("F0"));
-  add_bodies(space, computed.scene);
   const Relations relations = relations_of(space, computed.scene);
   space.update(at_s(1));
-  const std::string magazine = computed.scene.find("storage magazine");
+  const std::string magazine = computed.scene.find(kMagazine);
   const std::string surface = computed.scene.find("working surface");
   fmt::print("in the storage magazine: {}\n", names_in(space, magazine));
   expect(names_in(space, magazine) == "hose_adaptor", "the adaptor is in the storage magazine");
@@ -185,7 +170,9 @@ int main(int count, char** arguments) try {
   const Judgement reachable = relations.judge(
       {.relation = "reachable", .first = body("hose_adaptor"), .second = body("robot_base")});
   expect(reachable.holds, "the adaptor is within the reach of the arm");
+}
 
+void see_freshness(CellWorld& computed) {
   fmt::print("-- how fresh it is\n");
   const PoseAnswer late =
       computed.world.pose(computed.frame("F2"), computed.frame("F0"), at_s(1.75));
@@ -198,11 +185,12 @@ int main(int count, char** arguments) try {
                                                      .with_respect_to = computed.frame("F0"),
                                                      .policy = Policy::kFilter});
   expect(strict.latest(at_s(1.75)).status == Status::kExpired, "and whoever filters gets none");
+}
 
+// `before`: where the adaptor stands in the base's frame.
+void grasp_and_carry(CellWorld& computed, Actor& task, Arm& arm, Space& space, const Pose& before) {
   fmt::print("-- grasped, carried, released\n");
-  const Pose before = computed.pose("F2", "F0", at_s(1.2));
   Actor camera(computed.world, computed.declared.rights, kCamera, computed.audit);
-  Actor task(computed.world, computed.declared.rights, kTask, computed.audit);
   expect(!refusal([&] {
             camera.attach(computed.frame("F2"), computed.frame("F5"), at_s(1.2));
           }).empty(),
@@ -212,8 +200,8 @@ int main(int count, char** arguments) try {
          "grasping does not move the adaptor");
   // A quarter turn of the first joint, whose axis is vertical through F4: what the arm carries goes
   // round that axis.
-  q[0] += std::acos(-1) / 2;
-  joints.write(at_s(1.3), q);
+  arm.q[0] += std::acos(-1) / 2;
+  arm.joints.write(at_s(1.3), arm.q);
   const Pose carried = computed.pose("F2", "F4", at_s(1.3));
   const Pose lifted = compose(invert(computed.pose("F4", "F0", at_s(1.3))), before);
   fmt::print("carried by a quarter turn: from {:.3f} {:.3f} {:.3f} m to {:.3f} {:.3f} {:.3f} m\n",
@@ -224,16 +212,19 @@ int main(int count, char** arguments) try {
              std::abs(lifted.p.z - carried.p.z) < 1e-12,
          "the adaptor goes round with the arm");
   space.update(at_s(1.3));
-  expect(names_in(space, magazine) == "nothing", "the magazine is empty now");
-  q[0] -= std::acos(-1) / 2;
-  joints.write(at_s(1.4), q);
+  expect(names_in(space, computed.scene.find(kMagazine)) == "nothing", "the magazine is empty now");
+  arm.q[0] -= std::acos(-1) / 2;
+  arm.joints.write(at_s(1.4), arm.q);
   space.update(at_s(1.4));
-  expect(names_in(space, magazine) == "hose_adaptor", "and full when the arm has come back");
+  expect(names_in(space, computed.scene.find(kMagazine)) == "hose_adaptor",
+         "and full when the arm has come back");
+}
 
+void ask_what_if(CellWorld& computed, const Arm& arm, const Pose& before) {
   fmt::print("-- what if\n");
   World clone = computed.world.clone();
   const MeasurementId first_joint = computed.robot.positions.front();
-  expect(clone.write(first_joint, at_s(1.5), std::vector<double>{q[0] + 1}, {kController}) ==
+  expect(clone.write(first_joint, at_s(1.5), std::vector<double>{arm.q[0] + 1}, {kController}) ==
              Status::kOk,
          "the clone's arm is moved");
   const Pose there = clone.pose(computed.frame("F2"), computed.frame("F0"), at_s(1.5)).pose;
@@ -244,17 +235,21 @@ int main(int count, char** arguments) try {
                   2 * std::sin(0.5) * std::hypot(here.p.x, here.p.y)) < 1e-9,
          "by the chord of one radian about the base");
   expect(difference(here, before) < 1e-12, "and has not: the original knows nothing of it");
+}
 
+void release(CellWorld& computed, Actor& task, Arm& arm, const Pose& before) {
   task.detach(computed.frame("F2"), computed.frame("F3"), at_s(1.5));
-  q[0] += 0.3;
-  joints.write(at_s(1.6), q);
+  arm.q[0] += 0.3;
+  arm.joints.write(at_s(1.6), arm.q);
   expect(difference(computed.pose("F2", "F0", at_s(1.6)), before) < 1e-12,
          "the released adaptor stays where it was, and the arm goes");
   expect(write(computed, "measured-F2-F3", {{}, {0.1, -0.1, 1.1}}, kCamera, 1.65).empty(),
          "the camera sees it again");
   expect(std::abs(computed.pose("F2", "F0", at_s(1.65)).p.x - 0.8) < 1e-12,
          "and what it sees counts again");
+}
 
+void read_audits(const CellWorld& measured, const CellWorld& computed) {
   fmt::print("-- the audit of the second variant\n");
   for (const AuditEntry& entry : computed.audit->entries()) {
     fmt::print("{:2} {} {} {} {}\n", entry.number, entry.accepted ? "allowed" : "refused",
@@ -263,6 +258,47 @@ int main(int count, char** arguments) try {
   }
   expect(computed.audit->counts().refused == 1, "one act was refused in the second variant");
   expect(measured.audit->counts().refused == 5, "and five in the first");
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+  if (count != 2) {
+    std::cerr << "usage: assembly_cell SOURCE_FOLDER\n";
+    return 2;
+  }
+  const std::filesystem::path source = arguments[1], folder = source / "examples/assembly_cell";
+  graph::Store robot_store;
+  graph::Places robot_places;
+  Report report;
+  model::load_files(std::vector<std::filesystem::path>{source / "robots/gen3/chain.jsonld",
+                                                       source / "robots/gen3/dynamics.jsonld",
+                                                       source / "robots/gen3/geometry.jsonld"},
+                    {}, robot_store, robot_places, report);
+  const model::Tree robot = model::normalise(robot_store, robot_places, {}, report);
+  report.throw_if_errors();
+
+  // First variant: the controller says where the end effector is. Second: the world computes it.
+  CellWorld measured(folder,
+                     {"scene.jsonld", "task.jsonld", "measured.jsonld", "components.jsonld"});
+  CellWorld computed(
+      folder, {"scene.jsonld", "task.jsonld", "arm.jsonld", "shapes.jsonld", "components.jsonld"},
+      &robot, &robot_store.terms());
+  expect(!measured.configuration.has_errors(), "the first variant's configuration has no conflict");
+
+  see_rights(measured);
+  Arm arm{computed.world.claim(computed.robot.positions, {kController})};
+  compare_variants(measured, computed, arm);
+  Space space(computed.world, computed.frame("F0"));
+  add_bodies(space, computed.scene);
+  look_around(computed, space);
+  see_freshness(computed);
+  Actor task(computed.world, computed.declared.rights, kTask, computed.audit);
+  const Pose before = computed.pose("F2", "F0", at_s(1.2));
+  grasp_and_carry(computed, task, arm, space, before);
+  ask_what_if(computed, arm, before);
+  release(computed, task, arm, before);
+  read_audits(measured, computed);
   if (failures == 0) fmt::print("every figure holds\n");
   return failures == 0 ? 0 : 1;
 } catch (const std::exception& error) {

@@ -66,16 +66,10 @@ struct Hall {
   MeasurementId posed, logged, put;
 };
 
-TEST(Soak, EverythingAtOnceStaysConsistent) {
-  Hall hall;
-  std::atomic<bool> stop = false;
-  std::atomic<std::uint64_t> wrong = 0, writes = 0, block_reads = 0, past = 0, heard = 0,
-                             looked = 0, edits = 0;
-  std::atomic<std::int64_t> logged_until = 0;
-  std::vector<std::thread> threads;
-
-  // 1: in real time, every value written once and corrected once; x goes with the stamp.
-  threads.emplace_back([&] {
+// Everybody who is at work in the hall; each but the listener runs until `stop`.
+struct Soak {
+  // In real time, every value written once and corrected once; x goes with the stamp.
+  void write_in_real_time() {
     Writer writer = hall.world.claim(hall.posed, {"cart"});
     for (std::int64_t i = 1; !stop; ++i) {
       const double x = static_cast<double>(i);
@@ -84,9 +78,10 @@ TEST(Soak, EverythingAtOnceStaysConsistent) {
       writes += 2;
       if (i % 64 == 0) std::this_thread::yield();
     }
-  });
-  // 2: with a history; corrects the past, and lets go of what is old.
-  threads.emplace_back([&] {
+  }
+
+  // With a history; corrects the past, and lets go of what is old.
+  void write_with_history() {
     const WriteContext driver{"http://x/crane-driver"};
     for (std::int64_t i = 1; !stop; ++i) {
       const double x = static_cast<double>(10 * i);
@@ -106,9 +101,10 @@ TEST(Soak, EverythingAtOnceStaysConsistent) {
       }
       std::this_thread::sleep_for(std::chrono::microseconds(50));
     }
-  });
-  // 3: blocks agree with each other and with the measurement, read before and after them.
-  threads.emplace_back([&] {
+  }
+
+  // Blocks agree with each other and with the measurement, read before and after them.
+  void read_blocks() {
     while (!stop) {
       double a[7], b[7];
       const World::BlockBuffer both[] = {{0, a, sizeof a}, {1, b, sizeof b}};
@@ -122,9 +118,10 @@ TEST(Soak, EverythingAtOnceStaysConsistent) {
       wrong += own.status == Status::kOk && own.values[4] < a[4];
       ++block_reads;
     }
-  });
-  // 4: the past, through a reader that may; whatever was corrected, x is the stamp.
-  threads.emplace_back([&] {
+  }
+
+  // The past, through a reader that may; whatever was corrected, x is the stamp.
+  void read_the_past() {
     const Reader reader(hall.world, Rights(), "http://x/logger");
     const PoseQuery query{.of = hall.crane, .with_respect_to = hall.floor};
     PreparedPose prepared = reader.prepare_pose(query);
@@ -139,33 +136,10 @@ TEST(Soak, EverythingAtOnceStaysConsistent) {
                std::abs(answer.pose.p.x - static_cast<double>(at)) > 1e-6;
       ++past;
     }
-  });
-  // 5: looks, and a listener that is slower than what happens (its own thread: 6).
-  const auto queue = std::make_shared<EventQueue>(16);
-  Triggers triggers(hall.world);
-  triggers.add({.when = OnChange{hall.posed}, .callback = [&](const Event&) { ++heard; }}, queue);
-  triggers.add({.when = OnChange{hall.logged}, .callback = [&](const Event&) { ++heard; }}, queue);
-  triggers.add({.when = OnStructure{},
-                .priority = 3,
-                .callback =
-                    [&](const Event&) {
-                      ++heard;
-                      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-                    }},
-               queue);
-  triggers.add(
-      {.when = OnCondition{[](const World& world, Stamp) {
-         return world.latest(world.find_measurement("http://x/logged"), at_us(0)).values[4] > 100;
-       }},
-       .priority = 9,
-       .callback = [&](const Event&) { ++heard; }},
-      queue);
-  auto watch = std::make_unique<Watch>(triggers, std::chrono::microseconds(100));
-  threads.emplace_back([&] {
-    while (!stop) queue->run_one_within(std::chrono::milliseconds(2));
-  });
-  // 7: where the box is: on the cart, under the crane or on the floor, but in one place.
-  threads.emplace_back([&] {
+  }
+
+  // Where the box is: on the cart, under the crane or on the floor, but in one place.
+  void look() {
     Space space(hall.world, hall.floor);
     const BodyId body = space.add(hall.box, {{Box{{0.2, 0.2, 0.2}}, {}}});
     const BodyId area = space.add_area("http://x/area", hall.shelf, {{Box{{1, 1, 1}}, {}}});
@@ -177,9 +151,10 @@ TEST(Soak, EverythingAtOnceStaysConsistent) {
       wrong += space.within(area, Match::kInside).status != Status::kOk;
       ++looked;
     }
-  });
-  // 8: clones, attaches, detaches; what a clone once said it says again.
-  threads.emplace_back([&] {
+  }
+
+  // Clones, attaches, detaches; what a clone once said it says again.
+  void clone_and_attach() {
     for (std::int64_t i = 0; !stop; ++i) {
       World clone = hall.world.clone();
       const double x = clone.latest(hall.posed, at_us(0)).values[4];
@@ -196,34 +171,79 @@ TEST(Soak, EverythingAtOnceStaysConsistent) {
       ++edits;
       std::this_thread::sleep_for(std::chrono::microseconds(300));
     }
+  }
+
+  Hall hall;
+  std::atomic<bool> stop = false;
+  std::atomic<std::uint64_t> wrong = 0, writes = 0, block_reads = 0, past = 0, heard = 0,
+                             looked = 0, edits = 0;
+  std::atomic<std::int64_t> logged_until = 0;
+};
+
+// Listeners, of which one is slower than what happens.
+void listen(Soak& soak, Triggers& triggers, const std::shared_ptr<EventQueue>& queue) {
+  const auto hear = [&soak](const Event&) { ++soak.heard; };
+  triggers.add({.when = OnChange{soak.hall.posed}, .callback = hear}, queue);
+  triggers.add({.when = OnChange{soak.hall.logged}, .callback = hear}, queue);
+  triggers.add({.when = OnStructure{},
+                .priority = 3,
+                .callback =
+                    [&soak](const Event&) {
+                      ++soak.heard;
+                      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                    }},
+               queue);
+  triggers.add(
+      {.when = OnCondition{[](const World& world, Stamp) {
+         return world.latest(world.find_measurement("http://x/logged"), at_us(0)).values[4] > 100;
+       }},
+       .priority = 9,
+       .callback = hear},
+      queue);
+}
+
+TEST(Soak, EverythingAtOnceStaysConsistent) {
+  Soak soak;
+  std::vector<std::thread> threads;
+  for (void (Soak::*work)() :
+       {&Soak::write_in_real_time, &Soak::write_with_history, &Soak::read_blocks,
+        &Soak::read_the_past, &Soak::look, &Soak::clone_and_attach})
+    threads.emplace_back([&soak, work] { (soak.*work)(); });
+  const auto queue = std::make_shared<EventQueue>(16);
+  Triggers triggers(soak.hall.world);
+  listen(soak, triggers, queue);
+  auto watch = std::make_unique<Watch>(triggers, std::chrono::microseconds(100));
+  threads.emplace_back([&] {
+    while (!soak.stop) queue->run_one_within(std::chrono::milliseconds(2));
   });
 
   std::this_thread::sleep_for(std::chrono::duration<double>(soak_seconds()));
   // On a busy machine somebody may get its turn late.
-  for (int i = 0; i < 300 && (writes <= 100 || block_reads <= 10 || past <= 10 || heard <= 5 ||
-                              looked <= 5 || edits <= 2);
+  for (int i = 0; i < 300 && (soak.writes <= 100 || soak.block_reads <= 10 || soak.past <= 10 ||
+                              soak.heard <= 5 || soak.looked <= 5 || soak.edits <= 2);
        ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
-  stop = true;
+  soak.stop = true;
   for (std::thread& thread : threads) thread.join();
   watch.reset();
-  EXPECT_EQ(wrong, 0u);
-  EXPECT_GT(writes, 100u);
-  EXPECT_GT(block_reads, 10u);
-  EXPECT_GT(past, 10u);
-  EXPECT_GT(heard, 5u);
-  EXPECT_GT(looked, 5u);
-  EXPECT_GT(edits, 2u);
+  EXPECT_EQ(soak.wrong, 0u);
+  EXPECT_GT(soak.writes, 100u);
+  EXPECT_GT(soak.block_reads, 10u);
+  EXPECT_GT(soak.past, 10u);
+  EXPECT_GT(soak.heard, 5u);
+  EXPECT_GT(soak.looked, 5u);
+  EXPECT_GT(soak.edits, 2u);
   std::printf(
       "%llu writes, %llu block reads, %llu of the past, %llu heard (%llu dropped), %llu "
       "looks at space, %llu attached and detached\n",
-      static_cast<unsigned long long>(writes.load()),
-      static_cast<unsigned long long>(block_reads.load()),
-      static_cast<unsigned long long>(past.load()), static_cast<unsigned long long>(heard.load()),
+      static_cast<unsigned long long>(soak.writes.load()),
+      static_cast<unsigned long long>(soak.block_reads.load()),
+      static_cast<unsigned long long>(soak.past.load()),
+      static_cast<unsigned long long>(soak.heard.load()),
       static_cast<unsigned long long>(queue->dropped()),
-      static_cast<unsigned long long>(looked.load()),
-      static_cast<unsigned long long>(edits.load()));
+      static_cast<unsigned long long>(soak.looked.load()),
+      static_cast<unsigned long long>(soak.edits.load()));
 }
 
 }  // namespace
