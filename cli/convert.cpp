@@ -1,11 +1,13 @@
 // sinew convert FILE SOURCE TARGET: how one data prototype becomes another: explained, as source
 // code, or done on numbers.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <set>
 
 #include "options.h"
 #include "output.h"
@@ -101,6 +103,27 @@ void fill(const data::Prototype& prototype, Value& value, const std::string& opt
   }
 }
 
+// Refuses what is given --with but not read, or given twice: numbers that have no effect are a
+// slip.
+void check_given(const data::Library& library, const std::vector<data::Index>& needed,
+                 const ConvertOptions& options) {
+  std::set<std::string> names;
+  for (const data::Index index : needed) names.insert(library.relations[index].name());
+  const std::string remedy = names.empty() ? "leave it out: the conversion needs no relation"
+                                           : fmt::format("give {}", fmt::join(names, " and "));
+  std::set<std::string> seen;
+  for (const std::string& given : options.given) {
+    const std::string name = given.substr(0, given.find('='));
+    const char* fault = given.find('=') == std::string::npos ? "no numbers follow its name"
+                        : !names.contains(name)              ? "the conversion does not read it"
+                        : !seen.insert(name).second          ? "it is given twice"
+                                                             : nullptr;
+    if (fault != nullptr)
+      throw Error(
+          {{}, {}, fmt::format("--with \"{}\": {}", name, fault), remedy, Severity::kError, {}});
+  }
+}
+
 // "tool in base=0.1,0,…" among the --with options.
 Value given_relation(const data::Library& library, const data::Relation& relation,
                      const ConvertOptions& options) {
@@ -128,7 +151,9 @@ std::string convert_values(const data::Library& library, const data::Plan& plan,
   Value from = value_of(source), to = value_of(target);
   fill(source, from, "--values", options.values);
   std::vector<Value> relations;
-  for (const data::Index index : data::inputs_of(library, plan)) {
+  const std::vector<data::Index> needed = data::inputs_of(library, plan);
+  check_given(library, needed, options);
+  for (const data::Index index : needed) {
     relations.push_back(given_relation(library, library.relations[index], options));
   }
   std::vector<const void*> inputs;
@@ -172,16 +197,22 @@ int run_convert(Arguments arguments) {
                                 "The prototype to convert; PROTOTYPE.MEMBER for a part");
   app.add_option("TARGET", options.target, "The prototype to convert to");
   app.add_flag("--explain", options.explain,
-               "Each step, its type, what it costs and what it loses (the default)");
-  app.add_option("--emit", options.emit, "A header with one inline function")
-      ->check(CLI::IsMember({"c", "cpp"}));
+               "Each step, its type, what it costs and what it loses (the default)")
+      ->needs(source);
+  auto* emit = app.add_option("--emit", options.emit, "A header with one inline function")
+                   ->check(CLI::IsMember({"c", "cpp"}))
+                   ->needs(source);
   app.add_option("--name", options.function_name,
-                 "The function's name; SOURCE_to_TARGET without it");
-  app.add_option("--values", options.values,
-                 "Convert these numbers (in the order of memory), print the result");
+                 "The function's name; SOURCE_to_TARGET without it")
+      ->needs(emit);
+  auto* values = app.add_option("--values", options.values,
+                                "Convert these numbers (in the order of memory), print the result")
+                     ->needs(source);
   app.add_option("--with", options.given,
-                 "A relation between frames that the conversion needs: \"tool in base=0.1,0,…\"");
-  app.add_flag("--allow-lossy", options.allow_lossy, "Take steps that lose something");
+                 "A relation between frames that the conversion needs: \"tool in base=0.1,0,…\"")
+      ->needs(values);
+  app.add_flag("--allow-lossy", options.allow_lossy, "Take steps that lose something")
+      ->needs(source);
   app.add_option("--types", options.types,
                  "Directories to look for .msg, .asn, .idl, .smdsd files in");
   app.add_option("-o,--output", options.output, "Write there instead of to standard output");
