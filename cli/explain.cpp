@@ -19,11 +19,10 @@ using Json = nlohmann::json;
 }
 
 Json read_sidecar(const std::string& file) {
-  try {
-    Json document = Json::parse(read_input(file));
-    if (document.is_object() && document.value("sinew-generated", 0) == 1) return document;
-  } catch (const Json::exception&) {
-    // falls through to the one error for everything that is not such a file
+  Json document = Json::parse(read_input(file), nullptr, false);
+  if (document.is_object()) {
+    const auto version = document.find("sinew-generated");
+    if (version != document.end() && *version == 1) return document;
   }
   fail(file, "does not describe generated code", "name the .json that 'sinew generate' wrote");
 }

@@ -180,8 +180,9 @@ std::shared_ptr<runtime::RobotInterface> robot_of(Models& models, const QueryOpt
                                                   const LiveOptions& options, double period_s,
                                                   runtime::Recorder* recorder) {
   if (options.robot == "print") {
-    robot::PrintOptions print{start_of(options),
-                              [](const std::string& line) { std::cout << line << std::endl; }};
+    robot::PrintOptions print{start_of(options), [](const std::string& line) {
+                                std::cout << line << '\n' << std::flush;
+                              }};
     return std::make_shared<robot::Print>(print);
   }
   if (options.robot == "mujoco") {

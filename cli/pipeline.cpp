@@ -167,7 +167,7 @@ void normalise(Models& models, const synthesis::Query& query, std::optional<doub
   const synthesis::Origin& origin =
       query.tips_origin.place.file.empty() ? query.base_origin : query.tips_origin;
   Report placed;
-  for (Problem problem : report.problems())
+  for (const Problem& problem : report.problems())
     placed.add(problem.severity == Severity::kError && problem.place.file.empty() &&
                        problem.iri.empty()
                    ? synthesis::fault_in(query, origin, "", problem.what, problem.remedy)

@@ -278,7 +278,7 @@ void add_gravity(Work& work, const Points& points) {
     tree.base_acceleration = {alpha, R * stated.value.linear - cross(alpha, *p)};
   }
   if (!used && !work.options.gravity_varies) {
-    tree.notes.push_back(
+    tree.notes.emplace_back(
         "no gravity: the model states no acceleration of its base and none was given, so it is "
         "zero");
   }

@@ -103,7 +103,8 @@ std::optional<Vector3> read_axis(GraphReader& reader, const Structure& structure
   for (int i = 0; i < 2; ++i) {
     const Structure::Frame& frame = structure.frames[frames[i]];
     for (const Id line : lines) {
-      if ((directions[i] = line_direction(reader, frame, line))) break;
+      directions[i] = line_direction(reader, frame, line);
+      if (directions[i]) break;
     }
     if (!directions[i]) {
       const bool stated = !lines.empty();

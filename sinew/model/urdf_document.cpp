@@ -153,7 +153,7 @@ class Reader {
       skip();
       if (rest.starts_with('+') && !rest.starts_with("+-")) rest.remove_prefix(1);
       const auto [end, fault] = std::from_chars(rest.data(), rest.data() + rest.size(), *value);
-      const std::string_view number(rest.data(), static_cast<std::size_t>(end - rest.data()));
+      const std::string_view number = rest.substr(0, static_cast<std::size_t>(end - rest.data()));
       // A number below the smallest double is zero; one above the largest is none.
       const bool tiny = fault == std::errc::result_out_of_range &&
                         number.find_first_of("eE") != std::string_view::npos &&

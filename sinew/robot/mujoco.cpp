@@ -145,7 +145,7 @@ struct Mujoco::Simulation {
     std::size_t now = 0;  // from 1
     for (std::size_t i = 0; i < script.phases.size() && now == 0; ++i)
       if (data->time < script.phases[i].until) now = i + 1;
-    const mjtNum* at = data->site_xpos + 3 * hand;
+    const mjtNum* at = data->site_xpos + std::ptrdiff_t{3} * hand;
     if (now != phase) {
       phase = now;
       phase_began = data->time;

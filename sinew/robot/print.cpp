@@ -91,7 +91,7 @@ void Print::print_all() {
         names = commands_;
       }
       if (options_.only_changes &&
-          std::equal(row.begin(), row.begin() + names.size(), before.begin()))
+          std::equal(row.data(), row.data() + names.size(), before.begin()))
         continue;
       before = row;
       std::string line;

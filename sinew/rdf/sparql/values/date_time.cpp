@@ -7,6 +7,7 @@
 namespace sinew::rdf::sparql::values {
 namespace {
 
+constexpr std::int64_t kMinuteSeconds = 60, kHourSeconds = 3600;
 constexpr std::int64_t kDaySeconds = 86'400;
 
 // Days since 1970-01-01 of a day of the proleptic Gregorian calendar, by counting eras of 400 years
@@ -134,7 +135,8 @@ bool read_zone(Reader& reader, int& zone) {
 
 std::optional<Decimal> seconds_of(const Clock& clock, int zone_minutes) {
   const std::int64_t whole = days_of(clock.year, clock.month, clock.day) * kDaySeconds +
-                             clock.hour * 3600 + (clock.minute - zone_minutes) * 60;
+                             clock.hour * kHourSeconds +
+                             (clock.minute - zone_minutes) * kMinuteSeconds;
   return add(Decimal::of(whole), clock.second);
 }
 
@@ -173,7 +175,7 @@ Clock clock_of(const Instant& instant) {
   const auto rest = subtract(instant.seconds, whole);
   // Years are bounded, so this fits.
   std::int64_t local = to_int64(whole).value_or(0);
-  if (instant.has_zone()) local += instant.zone_minutes * 60;
+  if (instant.has_zone()) local += instant.zone_minutes * kMinuteSeconds;
   std::int64_t days = local / kDaySeconds;
   std::int64_t second = local % kDaySeconds;
   if (second < 0) {
@@ -237,7 +239,7 @@ TimeOrder compare(const Instant& a, const Instant& b) {
   };
   if (a.has_zone() == b.has_zone()) return of(compare(a.seconds, b.seconds));
   const auto difference = subtract(a.seconds, b.seconds);
-  const Decimal range = Decimal::of(14 * 3600);
+  const Decimal range = Decimal::of(14 * kHourSeconds);
   if (!difference) return of(compare(a.seconds, b.seconds));
   if (compare(*difference, range) > 0) return TimeOrder::kAfter;
   if (compare(*difference, negate(range)) < 0) return TimeOrder::kBefore;

@@ -147,11 +147,11 @@ bool append_replacement(std::string_view replacement, bool quoted, std::string_v
     } else if (c == '$') {
       if (next < '0' || next > '9') return false;
       // As many digits as there are groups for.
-      std::uint32_t number = static_cast<std::uint32_t>(next - '0');
+      auto number = static_cast<std::size_t>(next - '0');
       ++i;
       while (i + 1 < replacement.size() && replacement[i + 1] >= '0' && replacement[i + 1] <= '9' &&
-             number * 10 + static_cast<std::uint32_t>(replacement[i + 1] - '0') <= count) {
-        number = number * 10 + static_cast<std::uint32_t>(replacement[++i] - '0');
+             number * 10 + static_cast<std::size_t>(replacement[i + 1] - '0') <= count) {
+        number = number * 10 + static_cast<std::size_t>(replacement[++i] - '0');
       }
       if (number <= count && groups[2 * number] != PCRE2_UNSET) {
         out += text.substr(groups[2 * number], groups[2 * number + 1] - groups[2 * number]);
@@ -176,7 +176,7 @@ std::optional<std::string> Regex::replace(std::string_view text,
   const PCRE2_SIZE* const groups = pcre2_get_ovector_pointer(found.get());
   // The pattern could also be wrong where nothing matches.
   std::string unused;
-  const std::vector<PCRE2_SIZE> none(2 * (data_->groups + 1), PCRE2_UNSET);
+  const std::vector<PCRE2_SIZE> none(2 * (std::size_t{data_->groups} + 1), PCRE2_UNSET);
   if (!append_replacement(replacement, data_->quoted, {}, none.data(), data_->groups, unused)) {
     return std::nullopt;
   }

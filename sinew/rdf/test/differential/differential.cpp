@@ -258,7 +258,8 @@ int run_all(const fs::path& folder, int only) {
                 << (difference.empty() ? "the answers no longer differ; take it off the list"
                                        : difference)
                 << "\n"
-                << made.query << std::endl;
+                << made.query << '\n'
+                << std::flush;
     }
   }
   std::cout << fmt::format("{} queries, {} of them without solutions, {} solutions: {} agree\n",

@@ -61,7 +61,7 @@ void SuiteReport::add(const std::string& name, Outcome outcome, std::string reas
 void SuiteReport::test(const std::string& name, const std::function<std::string()>& body) {
   if (!only_.empty()) {
     if (name.find(only_) == std::string::npos) return;
-    std::cout << "running " << suite_ << "/" << name << std::endl;
+    std::cout << "running " << suite_ << "/" << name << '\n' << std::flush;
   }
   if (const auto exclusion = exclusions_.find(name); exclusion != exclusions_.end()) {
     return add(name, Outcome::kExcluded, exclusion->second);
