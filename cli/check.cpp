@@ -7,13 +7,13 @@
 #include "output.h"
 #include "pipeline.h"
 #include "sinew/blocks/elaborate.h"
+#include "sinew/graph/standard_iris.h"
 #include "sinew/model/normalise.h"
 #include "sinew/rdf/catalogue/catalogue.h"
 #include "sinew/rdf/shacl/report.h"
 #include "sinew/rdf/shacl/shapes.h"
 #include "sinew/rdf/shacl/validation.h"
 #include "sinew/rdf/turtle/reader.h"
-#include "sinew/vocab/standard.h"
 #include "sinew/vocab/vocab.h"
 #include "sinew/world/declared_rights.h"
 #include "sinew/world/declared_triggers.h"
@@ -58,7 +58,7 @@ rdf::shacl::Shapes all_shapes(Models& models, const ModelOptions& options,
 
 bool has_type(const Models& models, std::string_view type) {
   const graph::Terms& terms = models.store.terms();
-  const graph::Id is_a = terms.find_iri(vocab::rdf::type), id = terms.find_iri(type);
+  const graph::Id is_a = terms.find_iri(graph::kRdfType), id = terms.find_iri(type);
   return is_a && id && bool(models.store.view().subject(is_a, id));
 }
 bool has_links(const Models& models) {

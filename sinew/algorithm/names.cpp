@@ -1,11 +1,11 @@
 #include "sinew/algorithm/names.h"
 
 #include "sinew/graph/percent_encoding.h"
+#include "sinew/graph/standard_iris.h"
 
 namespace sinew::algorithm {
 namespace {
 
-constexpr std::string_view kRdf = "http://www.w3.org/1999/02/22-rdf-syntax-ns#";
 constexpr std::string_view kPublished = "https://comp-rob2b.github.io/metamodels/algorithm#";
 
 graph::Id join(graph::Terms& terms, std::string_view space, std::string_view name) {
@@ -20,12 +20,11 @@ std::string_view to_string(Role role) {
 }
 
 Names::Names(graph::Terms& terms) {
-  const auto rdf = [&](std::string_view name) { return join(terms, kRdf, name); };
   const auto sa = [&](std::string_view name) { return join(terms, kAlgorithmNamespace, name); };
-  type = rdf("type");
-  first = rdf("first");
-  rest = rdf("rest");
-  nil = rdf("nil");
+  type = terms.iri(graph::kRdfType);
+  first = terms.iri(graph::kRdfFirst);
+  rest = terms.iri(graph::kRdfRest);
+  nil = terms.iri(graph::kRdfNil);
   algorithm = sa("Algorithm");
   data = sa("data");
   closure = sa("closure");

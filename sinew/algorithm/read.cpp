@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "sinew/algorithm/check.h"
+#include "sinew/graph/standard_iris.h"
 
 namespace sinew::algorithm {
 namespace {
@@ -26,9 +27,7 @@ struct Vocabulary {
     return known->second;
   }
   Id sa(std::string_view name) const { return (*this)(kAlgorithmNamespace, name); }
-  Id rdf(std::string_view name) const {
-    return (*this)("http://www.w3.org/1999/02/22-rdf-syntax-ns#", name);
-  }
+  Id rdf(std::string_view name) const { return (*this)(graph::kRdf, name); }
 
   const graph::Terms& terms;
 

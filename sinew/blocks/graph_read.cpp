@@ -7,22 +7,21 @@
 #include "sinew/blocks/graph.h"
 #include "sinew/blocks/graph_names.h"
 #include "sinew/blocks/schema.h"
+#include "sinew/graph/standard_iris.h"
 
 namespace sinew::blocks {
 namespace {
 
 using graph::Id;
 
-constexpr std::string_view kRdf = "http://www.w3.org/1999/02/22-rdf-syntax-ns#";
-
 class GraphReader {
  public:
   GraphReader(const graph::View& view, const std::string& name)
       : view_(view), terms_(view.terms()), name_(name) {
-    type_ = terms_.find_iri(std::string(kRdf) + "type");
-    first_ = terms_.find_iri(std::string(kRdf) + "first");
-    rest_ = terms_.find_iri(std::string(kRdf) + "rest");
-    nil_ = terms_.find_iri(std::string(kRdf) + "nil");
+    type_ = terms_.find_iri(graph::kRdfType);
+    first_ = terms_.find_iri(graph::kRdfFirst);
+    rest_ = terms_.find_iri(graph::kRdfRest);
+    nil_ = terms_.find_iri(graph::kRdfNil);
   }
 
   Node run(Id file) {

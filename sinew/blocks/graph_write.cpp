@@ -5,22 +5,21 @@
 #include "sinew/blocks/graph.h"
 #include "sinew/blocks/graph_names.h"
 #include "sinew/blocks/schema.h"
+#include "sinew/graph/standard_iris.h"
 
 namespace sinew::blocks {
 namespace {
 
 using graph::Id;
 
-constexpr std::string_view kRdf = "http://www.w3.org/1999/02/22-rdf-syntax-ns#";
-
 class GraphWriter {
  public:
   GraphWriter(const std::string& base, graph::Store& store)
       : base_(base), store_(store), terms_(store.terms()) {
-    type_ = terms_.iri(std::string(kRdf) + "type");
-    first_ = terms_.iri(std::string(kRdf) + "first");
-    rest_ = terms_.iri(std::string(kRdf) + "rest");
-    nil_ = terms_.iri(std::string(kRdf) + "nil");
+    type_ = terms_.iri(graph::kRdfType);
+    first_ = terms_.iri(graph::kRdfFirst);
+    rest_ = terms_.iri(graph::kRdfRest);
+    nil_ = terms_.iri(graph::kRdfNil);
     prelude_names_.collect(prelude(), "");
   }
 

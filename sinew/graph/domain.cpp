@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "sinew/graph/standard_iris.h"
+
 namespace sinew::graph {
 
 void check(const View& view, const Domain& domain, const Places& places, Report& report) {
   const Terms& terms = view.terms();
-  const Id type = terms.find_iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#type");
+  const Id type = terms.find_iri(kRdfType);
   if (!type) return;  // nothing has a type
   for (const DomainType& one : domain.types) {
     std::vector<Id> nodes;

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <string>
 
+#include "sinew/graph/standard_iris.h"
+
 namespace sinew::graph {
 
 PropertyGraph::PropertyGraph(Transaction& transaction, Terms& terms, Id graph)
     : transaction_(transaction),
       terms_(terms),
       graph_(graph),
-      type_(terms.iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#type")),
+      type_(terms.iri(kRdfType)),
       edge_(pg("Edge")),
       source_(pg("source")),
       label_(pg("label")),

@@ -7,12 +7,12 @@
 #include <iterator>
 
 #include "sinew/base/error.h"
+#include "sinew/graph/standard_iris.h"
 #include "sinew/graph/terms_data.h"
 
 namespace sinew::graph {
 namespace {
 
-constexpr std::string_view kXsd = "http://www.w3.org/2001/XMLSchema#";
 constexpr std::string_view kNumericNames[] = {"decimal",
                                               "double",
                                               "float",
@@ -142,9 +142,9 @@ std::uint32_t Terms::Data::find_text(std::uint32_t hash, TermKind kind, std::str
 
 Terms::Terms(std::uint32_t limit) : data_(std::make_unique<Data>()) {
   data_->entries.reserve(0) = {};
-  iri(fmt::format("{}string", kXsd));
-  iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#langString");
-  iri(fmt::format("{}boolean", kXsd));
+  iri(kXsdString);
+  iri(kRdfLangString);
+  iri(kXsdBoolean);
   for (const std::string_view name : kNumericNames) iri(fmt::format("{}{}", kXsd, name));
   data_->limit = limit;
 }

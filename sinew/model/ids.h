@@ -1,8 +1,8 @@
 // The vocabulary that the model's passes use, interned once for each pass.
 #pragma once
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/graph/terms.h"
-#include "sinew/vocab/standard.h"
 #include "sinew/vocab/vocab.h"
 
 namespace sinew::model {
@@ -16,8 +16,8 @@ class Ids {
   using Id = graph::Id;
   explicit Ids(graph::Terms& terms) : terms_(terms) {}
 
-  Id type = iri(vocab::rdf::type), first = iri(vocab::rdf::first), rest = iri(vocab::rdf::rest),
-     nil = iri(vocab::rdf::nil);
+  Id type = iri(graph::kRdfType), first = iri(graph::kRdfFirst), rest = iri(graph::kRdfRest),
+     nil = iri(graph::kRdfNil);
   Id unit = iri(vocab::qudt::unit);
 
   // Geometry: entities and relations.

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/model/rotation.h"
 #include "sinew/model/urdf_document.h"
-#include "sinew/vocab/standard.h"
 #include "sinew/vocab/vocab.h"
 
 namespace sinew::model {
@@ -76,7 +76,7 @@ class Importer {
     transaction_.add({subject, iri(predicate), object, graph_});
   }
   void type(Id subject, std::initializer_list<std::string_view> types) {
-    for (const std::string_view type : types) add(subject, vocab::rdf::type, iri(type));
+    for (const std::string_view type : types) add(subject, graph::kRdfType, iri(type));
   }
   void units(Id subject, std::initializer_list<std::string_view> names) {
     for (const std::string_view name : names) add(subject, vocab::qudt::unit, unit(name));
@@ -85,11 +85,11 @@ class Importer {
     add(subject, predicate, terms_.real(value));
   }
   void list(Id subject, std::string_view predicate, std::initializer_list<double> values) {
-    Id rest = iri(vocab::rdf::nil);
+    Id rest = iri(graph::kRdfNil);
     for (auto value = std::rbegin(values); value != std::rend(values); ++value) {
       const Id cell = terms_.fresh_blank();
-      add(cell, vocab::rdf::first, terms_.real(*value));
-      add(cell, vocab::rdf::rest, rest);
+      add(cell, graph::kRdfFirst, terms_.real(*value));
+      add(cell, graph::kRdfRest, rest);
       rest = cell;
     }
     add(subject, predicate, rest);

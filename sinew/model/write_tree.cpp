@@ -1,9 +1,9 @@
 // The normalised tree as triples; the contract is in docs/architecture.md.
 #include <cmath>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/math/layout.h"
 #include "sinew/model/tree.h"
-#include "sinew/vocab/standard.h"
 #include "sinew/vocab/vocab.h"
 
 namespace sinew::model {
@@ -160,8 +160,8 @@ class Writer {
   graph::Terms& terms_;
   graph::Transaction transaction_;
   Id graph_;
-  Id type_ = terms_.iri(vocab::rdf::type), first_ = terms_.iri(vocab::rdf::first),
-     rest_ = terms_.iri(vocab::rdf::rest), nil_ = terms_.iri(vocab::rdf::nil);
+  Id type_ = terms_.iri(graph::kRdfType), first_ = terms_.iri(graph::kRdfFirst),
+     rest_ = terms_.iri(graph::kRdfRest), nil_ = terms_.iri(graph::kRdfNil);
   Id unit_ = terms_.iri(vocab::qudt::unit), value_ = terms_.iri(t::value);
 };
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "sinew/base/error.h"
+#include "sinew/graph/standard_iris.h"
 #include "sinew/synthesis/step_models.h"
 
 namespace sinew::synthesis {
@@ -148,9 +149,8 @@ std::vector<double> Context::numbers(Id coordinate) const {
 std::vector<double> coordinate_numbers(const graph::View& view, Id coordinate) {
   const graph::Terms& terms = view.terms();
   const Id value = terms.find_iri(std::string(algorithm::kTreeNamespace) + "value");
-  const std::string rdf = "http://www.w3.org/1999/02/22-rdf-syntax-ns#";
-  const Id first = terms.find_iri(rdf + "first"), rest = terms.find_iri(rdf + "rest"),
-           nil = terms.find_iri(rdf + "nil");
+  const Id first = terms.find_iri(graph::kRdfFirst), rest = terms.find_iri(graph::kRdfRest),
+           nil = terms.find_iri(graph::kRdfNil);
   std::vector<double> result;
   for (Id node = view.object(coordinate, value); node && node != nil;
        node = view.object(node, rest))

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sinew/algorithm/names.h"
+#include "sinew/graph/standard_iris.h"
 #include "sinew/synthesis/control.h"
 
 namespace sinew::synthesis {
@@ -71,8 +72,8 @@ class Placer {
   Pose numbers(Id coordinate) const {
     Pose result{};
     const Id value = word(kTree, "value");
-    const Id first = word("http://www.w3.org/1999/02/22-rdf-syntax-ns#", "first");
-    const Id rest = word("http://www.w3.org/1999/02/22-rdf-syntax-ns#", "rest");
+    const Id first = view_.terms().find_iri(graph::kRdfFirst);
+    const Id rest = view_.terms().find_iri(graph::kRdfRest);
     std::size_t at = 0;
     for (Id node = view_.object(coordinate, value); node && at < result.size();
          node = view_.object(node, rest))

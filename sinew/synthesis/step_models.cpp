@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/sparql/prepared.h"
 #include "sinew/synthesis/joint_edge.h"
 #include "sinew/synthesis/step_passes.h"
@@ -54,7 +55,7 @@ class Reader {
     return terms_.find_iri(std::string(kStepModelNamespace) + std::string(name));
   }
   Id rdf(std::string_view name) const {
-    return terms_.find_iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#" + std::string(name));
+    return terms_.find_iri(std::string(graph::kRdf) + std::string(name));
   }
 
   Place place(Id node, std::string_view property) const {

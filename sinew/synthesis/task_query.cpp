@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "sinew/algorithm/names.h"
-#include "sinew/vocab/standard.h"
+#include "sinew/graph/standard_iris.h"
 #include "sinew/vocab/vocab.h"
 
 namespace sinew::synthesis {
@@ -95,7 +95,7 @@ Query query_of_task(const graph::View& view, const graph::Places& places,
     for (const task::Driver& driver : solver.joint_accelerations)
       error(driver.id, "a driven acceleration needs inverse dynamics",
             "RecursiveNewtonEulerAlgorithm");
-  const graph::Id type = terms.find_iri(vocab::rdf::type);
+  const graph::Id type = terms.find_iri(graph::kRdfType);
   const auto is = [&](graph::Id node, std::string_view name) {
     const graph::Id class_name = terms.find_iri(name);
     return class_name && view.contains(node, type, class_name);

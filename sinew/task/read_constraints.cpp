@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/task/reader.h"
 #include "sinew/vocab/vocab.h"
 
@@ -69,8 +70,8 @@ AccelerationConstraint read_constraint(Reader& reader, Id node) {
 void sort_by_priority(Reader& reader, Id drivers,
                       std::vector<AccelerationConstraint>& constraints) {
   std::vector<Id> order;
-  const Id first = reader.iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#first");
-  const Id rest = reader.iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#rest");
+  const Id first = reader.iri(graph::kRdfFirst);
+  const Id rest = reader.iri(graph::kRdfRest);
   constexpr std::size_t kMaximumLevels = 100;
   std::size_t levels = 0;
   for (Id at = reader.optional(drivers, slv::prioritization_hierarchy); at;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/task/host_model.h"
 #include "sinew/task/reader.h"
 #include "sinew/vocab/vocab.h"
@@ -17,9 +18,9 @@ constexpr data::Dimension kTime = {{0, 0, 1}};
 std::vector<Id> list(Reader& reader, Id node, std::string_view property) {
   const Id head = reader.optional(node, property);
   if (!head) return {};
-  const Id first = reader.iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#first");
-  const Id rest = reader.iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#rest");
-  const Id nil = reader.iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#nil");
+  const Id first = reader.iri(graph::kRdfFirst);
+  const Id rest = reader.iri(graph::kRdfRest);
+  const Id nil = reader.iri(graph::kRdfNil);
   constexpr std::size_t kMaximumItems = 1000;
   std::vector<Id> items;
   for (Id at = head; at != nil; at = reader.graph.view.object(at, rest)) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/sparql/engine.h"
 #include "sinew/world/edit.h"
 #include "sinew/world/impl.h"
@@ -15,8 +16,6 @@ namespace {
 
 using graph::Id;
 using rdf::sparql::AnswerKind;
-
-constexpr std::string_view kType = "http://www.w3.org/1999/02/22-rdf-syntax-ns#type";
 
 rdf::sparql::Answer ask(const graph::View& view, graph::Terms& terms, const std::string& name,
                         const std::string& query) {
@@ -43,7 +42,7 @@ void put_arguments(graph::Transaction& transaction, graph::Terms& terms, const A
                    const ActionCall& call) {
   const Id graph = terms.iri(kArgumentsGraph), self = terms.iri(kThisAction);
   transaction.clear(graph);
-  transaction.add({self, terms.iri(kType), terms.iri(model.name), graph});
+  transaction.add({self, terms.iri(graph::kRdfType), terms.iri(model.name), graph});
   for (const auto& [parameter, value] : call.arguments) {
     transaction.add({self, terms.iri(parameter), terms.iri(value), graph});
   }

@@ -5,7 +5,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "sinew/vocab/standard.h"
+#include "sinew/graph/standard_iris.h"
 #include "sinew/world/symbols.h"
 
 namespace sinew::world {
@@ -18,7 +18,7 @@ std::size_t copy_declarations(const graph::Store& from, graph::Store& to) {
   const auto reach = [&](graph::Id node) {
     if (seen.insert(node.value).second) open.push_back(node);
   };
-  const graph::Id is_a = terms.find_iri(vocab::rdf::type);
+  const graph::Id is_a = terms.find_iri(graph::kRdfType);
   // What is said of a declaration in a node of its own, that may have a name.
   std::vector<graph::Id> inner;
   for (const char* property : {"precondition", "threshold", "every"}) {

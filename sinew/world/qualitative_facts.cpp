@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "sinew/vocab/standard.h"
+#include "sinew/graph/standard_iris.h"
 #include "sinew/world/refuse.h"
 #include "sinew/world/symbols.h"
 
@@ -38,7 +38,7 @@ struct FactWriter {
     graph::Terms& terms = store.terms();
     const graph::Id first = terms.iri(judgement.first), second = terms.iri(judgement.second);
     const graph::Id fact = terms.fresh_blank();
-    transaction.add({fact, terms.iri(vocab::rdf::type), w("RelationFact"), graph});
+    transaction.add({fact, terms.iri(graph::kRdfType), w("RelationFact"), graph});
     transaction.add({fact, w("called"), terms.literal(judgement.relation), graph});
     transaction.add({fact, w("first"), first, graph});
     transaction.add({fact, w("second"), second, graph});

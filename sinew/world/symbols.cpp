@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <string>
 
+#include "sinew/graph/standard_iris.h"
+
 namespace sinew::world {
 namespace {
 
-constexpr std::string_view kType = "http://www.w3.org/1999/02/22-rdf-syntax-ns#type";
 constexpr std::string_view kGeometry = "https://comp-rob2b.github.io/metamodels/geometry/";
 
 // The same term in another dictionary.
@@ -64,7 +65,7 @@ graph::Id Symbols::world(std::string_view term) {
 void Symbols::describe(const State& state, ElementKind kind, Index index,
                        std::vector<graph::Quad>& quads) {
   graph::Terms& terms = store.terms();
-  const graph::Id type = terms.iri(kType);
+  const graph::Id type = terms.iri(graph::kRdfType);
   const auto add = [&](graph::Id subject, graph::Id predicate, graph::Id object) {
     quads.push_back({subject, predicate, object, graph_});
   };

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "sinew/vocab/standard.h"
+#include "sinew/graph/standard_iris.h"
 #include "sinew/vocab/vocab.h"
 #include "sinew/world/block_set.h"
 #include "sinew/world/impl.h"
@@ -39,17 +39,17 @@ struct SceneWriter {
   void add(Id subject, std::string_view predicate, Id object) {
     add(subject, iri(predicate), object);
   }
-  void type(Id subject, std::string_view type) { add(subject, vocab::rdf::type, iri(type)); }
+  void type(Id subject, std::string_view type) { add(subject, graph::kRdfType, iri(type)); }
   void units(Id subject, std::initializer_list<std::string_view> names) {
     for (const std::string_view name : names) add(subject, vocab::qudt::unit, unit(name));
   }
 
   Id list(const std::vector<Id>& values) {
-    Id rest = iri(vocab::rdf::nil);
+    Id rest = iri(graph::kRdfNil);
     for (auto value = values.rbegin(); value != values.rend(); ++value) {
       const Id cell = terms().fresh_blank();
-      add(cell, vocab::rdf::first, *value);
-      add(cell, vocab::rdf::rest, rest);
+      add(cell, graph::kRdfFirst, *value);
+      add(cell, graph::kRdfRest, rest);
       rest = cell;
     }
     return rest;

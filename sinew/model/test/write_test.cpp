@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "models.h"
+#include "sinew/graph/standard_iris.h"
 #include "sinew/math/layout.h"
 #include "sinew/model/ids.h"
 
@@ -31,13 +32,13 @@ class WrittenTree : public testing::Test {
   }
   bool is_a(Id subject, std::string_view type) {
     return model.store.view().contains_in(
-        {subject, iri(vocab::rdf::type), iri(type), iri(kNormalisedGraph)});
+        {subject, iri(graph::kRdfType), iri(type), iri(kNormalisedGraph)});
   }
   std::vector<double> numbers(Id coordinate) {
     std::vector<double> values;
-    for (Id cell = object(coordinate, vocab::tree::value); cell != iri(vocab::rdf::nil);
-         cell = object(cell, vocab::rdf::rest)) {
-      values.push_back(*model.store.terms().number(object(cell, vocab::rdf::first)));
+    for (Id cell = object(coordinate, vocab::tree::value); cell != iri(graph::kRdfNil);
+         cell = object(cell, graph::kRdfRest)) {
+      values.push_back(*model.store.terms().number(object(cell, graph::kRdfFirst)));
     }
     return values;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/json/reader.h"
 #include "sinew/rdf/jsonld/iri_expansion.h"
 #include "sinew/rdf/jsonld/rdf_names.h"
@@ -19,16 +20,16 @@ bool tells_its_datatype(const json::Value& object, const Context& active,
   if (value == nullptr || type == nullptr || object.members().size() != 2) return false;
   switch (value->kind()) {
     case json::Kind::kBoolean:
-      return type->is_string(rdf_name::kBoolean);
+      return type->is_string(graph::kXsdBoolean);
     case json::Kind::kNumber: {
       const bool integer = value->text().find_first_of(".eE") == std::string_view::npos;
-      return type->is_string(integer ? rdf_name::kInteger : rdf_name::kDouble);
+      return type->is_string(integer ? graph::kXsdInteger : graph::kXsdDouble);
     }
     case json::Kind::kString: {
       const auto none = [](const Setting& of_term, const Setting& of_context) {
         return !(of_term.is_absent() ? of_context : of_term).has_text();
       };
-      return type->is_string(rdf_name::kString) && none(term.language, active.language) &&
+      return type->is_string(graph::kXsdString) && none(term.language, active.language) &&
              none(term.direction, active.direction);
     }
     default:

@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/graph/store.h"
 #include "sinew/rdf/json/reader.h"
 #include "sinew/rdf/jsonld/errors.h"
@@ -48,9 +49,9 @@ FromRdf::FromRdf(const graph::Terms& terms, const Options& options, json::Arena&
       options_(options),
       arena_(arena),
       style_(style),
-      rdf_type_(terms.find_iri(rdf_name::kType)),
-      rdf_rest_(terms.find_iri(rdf_name::kRest)),
-      rdf_nil_(terms.find_iri(rdf_name::kNil)),
+      rdf_type_(terms.find_iri(graph::kRdfType)),
+      rdf_rest_(terms.find_iri(graph::kRdfRest)),
+      rdf_nil_(terms.find_iri(graph::kRdfNil)),
       rdf_direction_(terms.find_iri(rdf_name::kDirection)) {}
 
 json::Value FromRdf::document(std::span<const graph::Quad> quads) {
@@ -111,8 +112,8 @@ void FromRdf::add(const graph::Quad& quad) {
 }
 
 bool FromRdf::is_list_cell(const json::Value& node) const {
-  const json::Value* first = node.find(rdf_name::kFirst);
-  const json::Value* rest = node.find(rdf_name::kRest);
+  const json::Value* first = node.find(graph::kRdfFirst);
+  const json::Value* rest = node.find(graph::kRdfRest);
   if (first == nullptr || rest == nullptr) return false;
   if (first->items().size() != 1 || rest->items().size() != 1) return false;
   std::size_t expected = 3;  // with @id
@@ -157,7 +158,7 @@ void FromRdf::make_lists(Graph& graph) {
       const Usage* only = only_usage(graph, usage.subject);
       const auto cell = graph.nodes.find(usage.subject);
       if (only == nullptr || cell == graph.nodes.end() || !is_list_cell(cell->second)) break;
-      items.push_back(cell->second.find(rdf_name::kFirst)->items()[0]);
+      items.push_back(cell->second.find(graph::kRdfFirst)->items()[0]);
       cells.push_back(usage.subject);
       usage = *only;
     }

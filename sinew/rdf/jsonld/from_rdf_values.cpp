@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/iri/characters.h"
 #include "sinew/rdf/json/reader.h"
 #include "sinew/rdf/json/writer.h"
@@ -36,12 +37,12 @@ void FromRdf::typed_native(json::Value& result, Id id) {
   const std::string_view lexical = terms_.text(id);
   const std::string_view datatype = terms_.text(terms_.datatype(id));
   json::Value value = text(lexical);
-  if (datatype == rdf_name::kBoolean && (lexical == "true" || lexical == "false")) {
+  if (datatype == graph::kXsdBoolean && (lexical == "true" || lexical == "false")) {
     value = json::Value::boolean(lexical == "true");
   } else if (const std::optional<double> number = terms_.number(id)) {
-    if (datatype == rdf_name::kDouble && std::isfinite(*number)) {
+    if (datatype == graph::kXsdDouble && std::isfinite(*number)) {
       value = json::Value::number(arena_.copy(double_number(*number)));
-    } else if (datatype != rdf_name::kDouble && json::is_number(lexical)) {
+    } else if (datatype != graph::kXsdDouble && json::is_number(lexical)) {
       value = json::Value::number(lexical);
     }
   }
@@ -82,7 +83,7 @@ void FromRdf::literal(json::Value& result, Id id) {
   result.add(arena_, keyword_value(keyword::kValue), text(lexical));
   if (!language.empty()) {
     result.add(arena_, keyword_value(keyword::kLanguage), text(language));
-  } else if (datatype != rdf_name::kString) {
+  } else if (datatype != graph::kXsdString) {
     result.add(arena_, keyword_value(keyword::kType), text(datatype));
   }
 }
@@ -90,9 +91,9 @@ void FromRdf::literal(json::Value& result, Id id) {
 // As a JSON number or boolean, if the literal has exactly that value.
 bool FromRdf::native(json::Value& result, std::string_view lexical, std::string_view datatype) {
   json::Value value;
-  if (datatype == rdf_name::kBoolean && (lexical == "true" || lexical == "false")) {
+  if (datatype == graph::kXsdBoolean && (lexical == "true" || lexical == "false")) {
     value = json::Value::boolean(lexical == "true");
-  } else if (datatype == rdf_name::kInteger || datatype == rdf_name::kDouble) {
+  } else if (datatype == graph::kXsdInteger || datatype == graph::kXsdDouble) {
     double number = 0;
     std::string_view digits = lexical;
     if (digits.starts_with('+')) digits.remove_prefix(1);
@@ -100,7 +101,7 @@ bool FromRdf::native(json::Value& result, std::string_view lexical, std::string_
     const bool whole_text = end.ptr == digits.data() + digits.size() && !digits.empty();
     const bool plain = digits.find_first_not_of("0123456789-") == std::string_view::npos;
     if (end.ec != std::errc() || !whole_text || !std::isfinite(number)) return false;
-    if (datatype == rdf_name::kInteger && !plain) return false;
+    if (datatype == graph::kXsdInteger && !plain) return false;
     value = json::Value::number(arena_.copy(json::ecmascript_number(number)));
   } else {
     return false;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/graph/store.h"
 #include "sinew/rdf/iri/iri.h"
 #include "sinew/rdf/jsonld/expanded.h"
@@ -31,10 +32,10 @@ ToRdf::ToRdf(const ToRdfContext& context, const QuadSink& sink)
     : context_(context),
       sink_(sink),
       terms_(context.terms),
-      rdf_type_(terms_.iri(rdf_name::kType)),
-      rdf_first_(terms_.iri(rdf_name::kFirst)),
-      rdf_rest_(terms_.iri(rdf_name::kRest)),
-      rdf_nil_(terms_.iri(rdf_name::kNil)) {}
+      rdf_type_(terms_.iri(graph::kRdfType)),
+      rdf_first_(terms_.iri(graph::kRdfFirst)),
+      rdf_rest_(terms_.iri(graph::kRdfRest)),
+      rdf_nil_(terms_.iri(graph::kRdfNil)) {}
 
 void ToRdf::document(const json::Value& expanded) {
   for (const json::Value& item : expanded.items()) node(item, {});

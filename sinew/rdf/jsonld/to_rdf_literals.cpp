@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/graph/store.h"
 #include "sinew/rdf/iri/characters.h"
 #include "sinew/rdf/iri/iri.h"
@@ -93,7 +94,7 @@ Id ToRdf::literal(const json::Value& object) {
 
   if (value.is_boolean()) {
     const std::string_view text = value.is_true() ? "true" : "false";
-    return datatype ? terms_.literal(text, datatype) : terms_.literal(text, rdf_name::kBoolean);
+    return datatype ? terms_.literal(text, datatype) : terms_.literal(text, graph::kXsdBoolean);
   }
   if (value.is_number()) return number_literal(value, type);
   if (!direction.empty() && context_.options.rdf_direction != RdfDirection::kNone) {
@@ -105,23 +106,23 @@ Id ToRdf::literal(const json::Value& object) {
 
 Id ToRdf::number_literal(const json::Value& number, std::string_view datatype) {
   const double value = number.number();
-  const bool is_double = datatype == rdf_name::kDouble;
+  const bool is_double = datatype == graph::kXsdDouble;
   const bool whole = std::trunc(value) == value && std::fabs(value) < kIntegerLimit;
   if (context_.numbers == Numbers::kExact) {
-    if (datatype == rdf_name::kDecimal) {
+    if (datatype == graph::kXsdDecimal) {
       const bool plain = is_plain_decimal(number.text());
       return terms_.literal(plain ? number.text() : decimal_text(value), datatype);
     }
     if (!is_double && is_plain_integer(number.text())) {
-      return terms_.literal(number.text(), datatype.empty() ? rdf_name::kInteger : datatype);
+      return terms_.literal(number.text(), datatype.empty() ? graph::kXsdInteger : datatype);
     }
     // "1.0" is meant as a real number, whatever the standard makes of it.
     if (is_double || datatype.empty()) return terms_.real(value);
   }
   if (whole && !is_double) {
-    return terms_.literal(integer_text(value), datatype.empty() ? rdf_name::kInteger : datatype);
+    return terms_.literal(integer_text(value), datatype.empty() ? graph::kXsdInteger : datatype);
   }
-  return terms_.literal(canonical_double(value), datatype.empty() ? rdf_name::kDouble : datatype);
+  return terms_.literal(canonical_double(value), datatype.empty() ? graph::kXsdDouble : datatype);
 }
 
 Id ToRdf::directed_literal(const json::Value& text, std::string_view language,

@@ -1,6 +1,7 @@
 // Result sets as XML and as JSON.
 #include <fmt/format.h>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/results/codecs.h"
 #include "sinew/rdf/turtle/term_text.h"
 
@@ -8,8 +9,6 @@ namespace sinew::rdf {
 namespace {
 
 using graph::Id;
-
-constexpr std::string_view kXsdString = "http://www.w3.org/2001/XMLSchema#string";
 
 std::string blank_label(BlankLabels& labels, Id id) {
   std::string label;
@@ -21,7 +20,7 @@ std::string blank_label(BlankLabels& labels, Id id) {
 std::string_view explicit_datatype(Id literal, const graph::Terms& terms) {
   if (!terms.language(literal).empty()) return {};
   const std::string_view datatype = terms.text(terms.datatype(literal));
-  return datatype == kXsdString ? std::string_view{} : datatype;
+  return datatype == graph::kXsdString ? std::string_view{} : datatype;
 }
 
 void append_xml(std::string& out, std::string_view text) {

@@ -1,6 +1,7 @@
 // Result sets from TSV: variables with '?', terms in the syntax of Turtle without prefixes.
 #include <fmt/format.h>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/iri/iri.h"
 #include "sinew/rdf/results/codecs.h"
 #include "sinew/rdf/turtle/blank_scope.h"
@@ -69,7 +70,7 @@ class TsvReader {
       const char* type = number.kind == Scanner::NumberKind::kInteger   ? "integer"
                          : number.kind == Scanner::NumberKind::kDecimal ? "decimal"
                                                                         : "double";
-      return terms_.literal(number.text, std::string("http://www.w3.org/2001/XMLSchema#") + type);
+      return terms_.literal(number.text, std::string(graph::kXsd) + type);
     }
     for (const bool value : {true, false}) {
       const std::string_view word = value ? "true" : "false";

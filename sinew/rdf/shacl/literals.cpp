@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sinew/graph/numeric.h"
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/shacl/vocabulary.h"
 #include "sinew/rdf/sparql/values/date_time.h"
 #include "sinew/rdf/sparql/values/operators.h"
@@ -160,8 +161,8 @@ constexpr Row kRows[] = {
 }  // namespace
 
 bool is_well_formed(std::string_view lexical, std::string_view datatype) {
-  if (!datatype.starts_with(kXsd)) return true;
-  const std::string_view name = datatype.substr(kXsd.size());
+  if (!datatype.starts_with(graph::kXsd)) return true;
+  const std::string_view name = datatype.substr(graph::kXsd.size());
   if (const auto type = graph::numeric_type(name); type != graph::NumericType::kNone) {
     return graph::parse_number(lexical, type).has_value();
   }

@@ -2,10 +2,13 @@
 
 #include <string>
 
+#include "sinew/graph/standard_iris.h"
+
 namespace sinew::rdf::shacl {
 namespace {
 
-constexpr std::string_view kRdf = "http://www.w3.org/1999/02/22-rdf-syntax-ns#";
+using graph::kRdf;
+using graph::kXsd;
 constexpr std::string_view kRdfs = "http://www.w3.org/2000/01/rdf-schema#";
 constexpr std::string_view kOwl = "http://www.w3.org/2002/07/owl#";
 

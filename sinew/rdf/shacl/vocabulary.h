@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/graph/terms.h"
 
 namespace sinew::rdf::shacl {
@@ -11,7 +12,6 @@ namespace sinew::rdf::shacl {
 using graph::Id;
 
 inline constexpr std::string_view kSh = "http://www.w3.org/ns/shacl#";
-inline constexpr std::string_view kXsd = "http://www.w3.org/2001/XMLSchema#";
 
 struct Vocabulary {
   explicit Vocabulary(graph::Terms& terms);

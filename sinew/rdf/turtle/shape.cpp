@@ -4,6 +4,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/isomorphism/refinement.h"
 #include "sinew/rdf/turtle/writer.h"
 
@@ -49,7 +50,7 @@ std::unordered_map<Id, std::uint32_t> ranks(std::span<const Quad> quads,
 
 Shape::Shape(std::span<const Quad> quads, const graph::Terms& terms) {
   const auto rdf = [&](const char* name) {
-    return terms.find_iri(std::string("http://www.w3.org/1999/02/22-rdf-syntax-ns#") + name);
+    return terms.find_iri(std::string(graph::kRdf) + name);
   };
   type_ = rdf("type");
   first_ = rdf("first");

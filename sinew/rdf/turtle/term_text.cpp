@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "sinew/base/error.h"
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/iri/iri.h"
 #include "sinew/rdf/turtle/byte_class.h"
 
@@ -10,9 +11,6 @@ namespace sinew::rdf {
 namespace {
 
 using graph::Id;
-
-constexpr std::string_view kXsd = "http://www.w3.org/2001/XMLSchema#";
-constexpr std::string_view kXsdString = "http://www.w3.org/2001/XMLSchema#string";
 
 constexpr ByteClass kNeedsEscape =
     bytes_where([](unsigned char c) { return c == '"' || c == '\\' || c == '\n' || c == '\r'; });
@@ -71,7 +69,8 @@ void append_term(std::string& out, Id id, const graph::Terms& terms) {
   append_quoted(out, terms.text(id));
   if (const std::string_view language = terms.language(id); !language.empty()) {
     out.append("@").append(language);
-  } else if (const std::string_view type = terms.text(terms.datatype(id)); type != kXsdString) {
+  } else if (const std::string_view type = terms.text(terms.datatype(id));
+             type != graph::kXsdString) {
     out += "^^";
     append_iri(out, type);
   }
@@ -83,8 +82,8 @@ void BlankLabels::append(std::string& out, Id node) {
 }
 
 bool is_bare_literal(std::string_view text, std::string_view datatype) {
-  if (!datatype.starts_with(kXsd)) return false;
-  datatype.remove_prefix(kXsd.size());
+  if (!datatype.starts_with(graph::kXsd)) return false;
+  datatype.remove_prefix(graph::kXsd.size());
   if (datatype == "boolean") return text == "true" || text == "false";
   if (datatype != "integer" && datatype != "decimal" && datatype != "double") return false;
   const std::size_t start = text.starts_with('+') || text.starts_with('-') ? 1 : 0;
@@ -145,7 +144,7 @@ void ShortTerms::append_literal(std::string& out, Id id) {
   }
   if (const std::string_view language = terms_.language(id); !language.empty()) {
     out.append("@").append(language);
-  } else if (type != kXsdString) {
+  } else if (type != graph::kXsdString) {
     out += "^^";
     append_iri(out, datatype);
   }

@@ -2,6 +2,7 @@
 // section 6.5; TriG, section 3.5). One byte of look-ahead is enough to choose.
 #include <fmt/format.h>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/iri/iri.h"
 #include "sinew/rdf/turtle/blank_scope.h"
 #include "sinew/rdf/turtle/grammars.h"
@@ -12,9 +13,6 @@ namespace {
 
 using graph::Id;
 using Position = Scanner::Position;
-
-constexpr std::string_view kRdf = "http://www.w3.org/1999/02/22-rdf-syntax-ns#";
-constexpr std::string_view kXsd = "http://www.w3.org/2001/XMLSchema#";
 
 bool equals_ignoring_case(std::string_view word, std::string_view upper) {
   if (word.size() != upper.size()) return false;
@@ -44,13 +42,13 @@ class TurtleReader {
         terms_(terms),
         sink_(sink),
         blanks_(terms),
-        type_(in_namespace(kRdf, "type")),
-        first_(in_namespace(kRdf, "first")),
-        rest_(in_namespace(kRdf, "rest")),
-        nil_(in_namespace(kRdf, "nil")),
-        integer_(in_namespace(kXsd, "integer")),
-        decimal_(in_namespace(kXsd, "decimal")),
-        double_(in_namespace(kXsd, "double")) {}
+        type_(terms_.iri(graph::kRdfType)),
+        first_(terms_.iri(graph::kRdfFirst)),
+        rest_(terms_.iri(graph::kRdfRest)),
+        nil_(terms_.iri(graph::kRdfNil)),
+        integer_(terms_.iri(graph::kXsdInteger)),
+        decimal_(terms_.iri(graph::kXsdDecimal)),
+        double_(terms_.iri(graph::kXsdDouble)) {}
 
   Prefixes read() {
     for (scanner_.skip_space(); !scanner_.at_end(); scanner_.skip_space()) statement();
@@ -380,10 +378,6 @@ class TurtleReader {
 
   void emit(Id subject, Id predicate, Id object, Position place) {
     sink_({subject, predicate, object, graph_}, place.line, place.column);
-  }
-
-  Id in_namespace(std::string_view space, std::string_view name) {
-    return terms_.iri(std::string(space).append(name));
   }
 
   Scanner scanner_;

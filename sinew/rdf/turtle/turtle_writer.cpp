@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/turtle/shape.h"
 #include "sinew/rdf/turtle/term_text.h"
 
@@ -26,8 +27,8 @@ class TurtleWriter {
       : terms_(terms),
         shape_(quads, terms),
         short_terms_(terms, prefixes),
-        type_(terms.find_iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#type")),
-        nil_(terms.find_iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#nil")) {}
+        type_(terms.find_iri(graph::kRdfType)),
+        nil_(terms.find_iri(graph::kRdfNil)) {}
 
   std::string write(bool graphs) {
     std::string body;

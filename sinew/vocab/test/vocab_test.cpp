@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "sinew/vocab/standard.h"
-
 namespace sinew::vocab {
 namespace {
 

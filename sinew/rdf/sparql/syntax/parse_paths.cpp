@@ -3,12 +3,11 @@
 
 #include <utility>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/sparql/syntax/parser_class.h"
 
 namespace sinew::rdf::sparql::syntax {
 namespace {
-
-constexpr std::string_view kRdfType = "http://www.w3.org/1999/02/22-rdf-syntax-ns#type";
 
 Path wrap(Path::Kind kind, Path inner) {
   Path path;
@@ -54,7 +53,7 @@ Path Parser::path_element() {
 Path Parser::path_primary() {
   Path path;
   if (accept_word("a")) {
-    path.iri = terms_.iri(kRdfType);
+    path.iri = terms_.iri(graph::kRdfType);
     return path;
   }
   if (at_iri()) {
@@ -91,7 +90,7 @@ Path Parser::path_negated_set() {
 
 void Parser::path_one_in_set(Path& into) {
   const bool backward = accept("^");
-  const graph::Id id = accept_word("a") ? terms_.iri(kRdfType) : iri();
+  const graph::Id id = accept_word("a") ? terms_.iri(graph::kRdfType) : iri();
   (backward ? into.backward : into.forward).push_back(id);
   (backward ? into.walks_backward : into.walks_forward) = true;
 }

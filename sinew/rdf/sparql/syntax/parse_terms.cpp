@@ -1,15 +1,10 @@
 #include <fmt/format.h>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/iri/iri.h"
 #include "sinew/rdf/sparql/syntax/parser_class.h"
 
 namespace sinew::rdf::sparql::syntax {
-namespace {
-
-constexpr std::string_view kXsd = "http://www.w3.org/2001/XMLSchema#";
-
-}  // namespace
-
 void Parser::prologue() {
   while (true) {
     if (accept_word("BASE")) {
@@ -100,7 +95,7 @@ graph::Id Parser::numeric_literal(std::string_view sign) {
   }
   const std::string lexical = std::string(sign) + token_.text;
   advance();
-  return terms_.literal(lexical, std::string(kXsd) + std::string(type));
+  return terms_.literal(lexical, std::string(graph::kXsd) + std::string(type));
 }
 
 // Precondition: at_literal().

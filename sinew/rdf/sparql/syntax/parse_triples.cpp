@@ -1,15 +1,10 @@
 // Triples with their abbreviations: [ ], ( ), ; and , - in patterns, templates and data alike.
 #include <fmt/format.h>
 
+#include "sinew/graph/standard_iris.h"
 #include "sinew/rdf/sparql/syntax/parser_class.h"
 
 namespace sinew::rdf::sparql::syntax {
-namespace {
-
-constexpr std::string_view kRdf = "http://www.w3.org/1999/02/22-rdf-syntax-ns#";
-
-}  // namespace
-
 bool Parser::at_graph_node() const {
   return at_variable() || at_iri() || at_literal() || token_.kind == TokenKind::kBlankLabel ||
          at("[") || at("(");
@@ -33,7 +28,7 @@ void Parser::verb(Triple& into) {
     return;
   }
   if (triple_mode_ != TripleMode::kPattern) {
-    into.predicate = Node::term(accept_word("a") ? terms_.iri(std::string(kRdf) + "type") : iri());
+    into.predicate = Node::term(accept_word("a") ? terms_.iri(graph::kRdfType) : iri());
     return;
   }
   Path parsed = path();
@@ -132,11 +127,11 @@ Node Parser::blank_node_property_list(std::vector<Triple>& out) {
 Node Parser::collection(std::vector<Triple>& out) {
   const Level level(*this);
   advance();
-  const Node nil = Node::term(terms_.iri(std::string(kRdf) + "nil"));
+  const Node nil = Node::term(terms_.iri(graph::kRdfNil));
   if (accept(")")) return nil;
   Triple first, rest;
-  first.predicate = Node::term(terms_.iri(std::string(kRdf) + "first"));
-  rest.predicate = Node::term(terms_.iri(std::string(kRdf) + "rest"));
+  first.predicate = Node::term(terms_.iri(graph::kRdfFirst));
+  rest.predicate = Node::term(terms_.iri(graph::kRdfRest));
   const Node head = fresh_blank_node();
   Node cell = head;
   while (true) {

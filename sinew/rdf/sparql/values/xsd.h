@@ -4,15 +4,18 @@
 #include <cstdint>
 #include <string_view>
 
+#include "sinew/graph/standard_iris.h"
+
 namespace sinew::rdf::sparql::values {
 
-inline constexpr std::string_view kXsd = "http://www.w3.org/2001/XMLSchema#";
-inline constexpr std::string_view kXsdString = "http://www.w3.org/2001/XMLSchema#string";
-inline constexpr std::string_view kXsdBoolean = "http://www.w3.org/2001/XMLSchema#boolean";
-inline constexpr std::string_view kXsdInteger = "http://www.w3.org/2001/XMLSchema#integer";
-inline constexpr std::string_view kXsdDecimal = "http://www.w3.org/2001/XMLSchema#decimal";
+using graph::kRdfLangString;
+using graph::kXsd;
+using graph::kXsdBoolean;
+using graph::kXsdDecimal;
+using graph::kXsdDouble;
+using graph::kXsdInteger;
+using graph::kXsdString;
 inline constexpr std::string_view kXsdFloat = "http://www.w3.org/2001/XMLSchema#float";
-inline constexpr std::string_view kXsdDouble = "http://www.w3.org/2001/XMLSchema#double";
 inline constexpr std::string_view kXsdDateTime = "http://www.w3.org/2001/XMLSchema#dateTime";
 inline constexpr std::string_view kXsdDate = "http://www.w3.org/2001/XMLSchema#date";
 inline constexpr std::string_view kXsdTime = "http://www.w3.org/2001/XMLSchema#time";
@@ -21,8 +24,6 @@ inline constexpr std::string_view kXsdDayTimeDuration =
     "http://www.w3.org/2001/XMLSchema#dayTimeDuration";
 inline constexpr std::string_view kXsdYearMonthDuration =
     "http://www.w3.org/2001/XMLSchema#yearMonthDuration";
-inline constexpr std::string_view kRdfLangString =
-    "http://www.w3.org/1999/02/22-rdf-syntax-ns#langString";
 
 enum class Datatype : std::uint8_t {
   kOther,
