@@ -194,11 +194,10 @@ Node Parser::parse_units() {
 }
 
 void Parser::parse_units_body(Node& node) {
-  Place place = lexer_.place();
+  const Place place = lexer_.place();
   add_here(node, "ontology", expect_name("the table of units, qudt"), place);
   expect(",");
-  place = lexer_.place();
-  add_here(node, "algebraic", parse_qualified("an algebraic form"), place);
+  add_qualified(node, "algebraic", "an algebraic form");
   parse_braces(node, [&] { return parse_unit(); });
 }
 
@@ -218,11 +217,9 @@ Node Parser::parse_unit() {
 Node Parser::parse_alias() {
   Node node = begin("alias");
   lexer_.next();
-  Place place = lexer_.place();
-  add_here(node, "left", parse_qualified("an algebraic form"), place);
+  add_qualified(node, "left", "an algebraic form");
   expect("<->");
-  place = lexer_.place();
-  add_here(node, "right", parse_qualified("an algebraic form"), place);
+  add_qualified(node, "right", "an algebraic form");
   parse_braces(node, [&] { return parse_entry(); });
   return node;
 }
@@ -275,7 +272,7 @@ std::string Parser::parse_accessor() {
 Node Parser::parse_view() {
   Node node = begin("view");
   lexer_.next();
-  Place place = lexer_.place();
+  const Place place = lexer_.place();
   const std::string path = parse_qualified("PROTOTYPE.MEMBER");
   const std::size_t dot = path.rfind('.');
   if (dot == std::string::npos) {
@@ -289,12 +286,10 @@ Node Parser::parse_view() {
   add_here(node, "prototype", path.substr(0, dot), place);
   add_here(node, "member", path.substr(dot + 1), place);
   expect("->");
-  place = lexer_.place();
-  add_here(node, "target", parse_qualified("the prototype of the part"), place);
+  add_qualified(node, "target", "the prototype of the part");
   const bool equals = take("=");
   if (equals && !at("{")) {
-    place = lexer_.place();
-    add_here(node, "function", parse_qualified("a function"), place);
+    add_qualified(node, "function", "a function");
     return node;
   }
   parse_braces(node, [&] { return parse_entry(); });
@@ -304,14 +299,11 @@ Node Parser::parse_view() {
 Node Parser::parse_conversion() {
   Node node = begin("conversion");
   lexer_.next();
-  Place place = lexer_.place();
-  add_here(node, "from", parse_qualified("a prototype"), place);
+  add_qualified(node, "from", "a prototype");
   expect("->");
-  place = lexer_.place();
-  add_here(node, "to", parse_qualified("a prototype"), place);
+  add_qualified(node, "to", "a prototype");
   expect("=");
-  place = lexer_.place();
-  add_here(node, "function", parse_qualified("a function"), place);
+  add_qualified(node, "function", "a function");
   if (at("{")) {
     parse_braces(node, [&] { return parse_setting(); });
   }
@@ -328,8 +320,7 @@ Node Parser::parse_relation() {
   }
   node.add("reference", expect_name("a frame"));
   expect("=");
-  const Place place = lexer_.place();
-  add_here(node, "prototype", parse_qualified("a prototype"), place);
+  add_qualified(node, "prototype", "a prototype");
   if (at("{")) {
     node.add("constant", "const");
     parse_braces(node, [&] { return parse_entry(); });
@@ -384,8 +375,7 @@ Node Parser::parse_argument() {
   for (const char* direction : {"<=>", "<=", "=>"}) {
     if (!take(direction)) continue;
     node.add("direction", direction);
-    const Place place = lexer_.place();
-    add_here(node, "prototype", parse_qualified("a prototype"), place);
+    add_qualified(node, "prototype", "a prototype");
     return node;
   }
   fail(fmt::format("{} where a direction should be", found()),
@@ -452,6 +442,11 @@ std::string Parser::fmt_end(std::string_view mark) {
 
 void Parser::fail(std::string what, std::string remedy) const {
   lexer_.fail(lexer_.place(), std::move(what), std::move(remedy));
+}
+
+void Parser::add_qualified(Node& node, std::string name, std::string_view what) {
+  const Place place = lexer_.place();
+  add_here(node, std::move(name), parse_qualified(what), place);
 }
 
 void Parser::add_here(Node& node, std::string name, std::string value, const Place& place) const {

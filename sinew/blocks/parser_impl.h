@@ -89,6 +89,7 @@ class Parser {
   static std::string fmt_end(std::string_view mark);
   [[noreturn]] void fail(std::string what, std::string remedy = {}) const;
   void add_here(Node& node, std::string name, std::string value, const Place& place) const;
+  void add_qualified(Node& node, std::string name, std::string_view what);  // the name that follows
 
   Lexer lexer_;
   Report report_;

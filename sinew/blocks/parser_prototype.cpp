@@ -113,8 +113,7 @@ Node Parser::parse_member() {
   Node node = begin("member");
   node.add("name", expect_name("a member's name"));
   expect("=");
-  const Place place = lexer_.place();
-  add_here(node, "value", parse_qualified("a name"), place);
+  add_qualified(node, "value", "a name");
   return node;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sinew/algorithm/names.h"
+#include "sinew/graph/standard_iris.h"
 #include "sinew/model/sizes.h"
 #include "sinew/rdf/jsonld/load.h"
 
@@ -52,7 +53,7 @@ class Reader {
     return terms_.find_iri(std::string(kQueryNamespace) + std::string(name));
   }
   Id rdf(std::string_view name) const {
-    return terms_.find_iri("http://www.w3.org/1999/02/22-rdf-syntax-ns#" + std::string(name));
+    return terms_.find_iri(std::string(graph::kRdf) + std::string(name));
   }
 
   Id only_of_type(std::string_view type, const std::string& file) {
@@ -304,30 +305,33 @@ Query read_query(const graph::View& view, Id node, const graph::Places* places, 
   return query;
 }
 
-Query parse_query(std::string_view text, const std::string& file,
-                  const catalogue::Catalogue& catalogue) {
+namespace {
+
+// Loads a document, and reads its one node of this type by `read(view, node, places, report)`.
+template <typename Read>
+auto parse_one(std::string_view text, const std::string& file,
+               const catalogue::Catalogue& catalogue, std::string_view type, Read read) {
   Document document;
   load(text, file, catalogue, document);
   Report report;
   const graph::View view = document.store.view();
-  const Id node = Reader(view, &document.places, report).only_of_type("Query", file);
+  const Id node = Reader(view, &document.places, report).only_of_type(type, file);
   report.throw_if_errors();
-  Query query = read_query(view, node, &document.places, report);
+  auto result = read(view, node, &document.places, report);
   report.throw_if_errors();
-  return query;
+  return result;
+}
+
+}  // namespace
+
+Query parse_query(std::string_view text, const std::string& file,
+                  const catalogue::Catalogue& catalogue) {
+  return parse_one(text, file, catalogue, "Query", read_query);
 }
 
 SweepConfiguration parse_sweeps(std::string_view text, const std::string& file,
                                 const catalogue::Catalogue& catalogue) {
-  Document document;
-  load(text, file, catalogue, document);
-  Report report;
-  const graph::View view = document.store.view();
-  const Id node = Reader(view, &document.places, report).only_of_type("SweepConfiguration", file);
-  report.throw_if_errors();
-  SweepConfiguration configuration = read_sweeps(view, node, &document.places, report);
-  report.throw_if_errors();
-  return configuration;
+  return parse_one(text, file, catalogue, "SweepConfiguration", read_sweeps);
 }
 
 std::vector<std::string> named_queries() {

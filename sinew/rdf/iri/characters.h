@@ -27,6 +27,16 @@ constexpr bool is_scalar_value(char32_t character) {
   return character <= 0x10FFFF && !(character >= 0xD800 && character <= 0xDFFF);
 }
 
+// What \b, \t, \n, \f and \r stand for in strings of JSON, Turtle and SPARQL; 0 for other letters.
+constexpr char control_of_escape(char letter) {
+  return letter == 'b'   ? '\b'
+         : letter == 't' ? '\t'
+         : letter == 'n' ? '\n'
+         : letter == 'f' ? '\f'
+         : letter == 'r' ? '\r'
+                         : '\0';
+}
+
 // 0 to 15, or -1 when it is not a hexadecimal digit.
 constexpr int hex_digit_value(char32_t c) {
   if (c >= '0' && c <= '9') return static_cast<int>(c - '0');

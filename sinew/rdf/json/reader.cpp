@@ -232,26 +232,17 @@ class Reader {
 
   void escape() {
     if (next_ == end_) fail("the file ends inside a string", "a closing '\"'");
-    switch (const char code = *next_; code) {
+    const char code = *next_;
+    if (const char control = rdf::control_of_escape(code)) {
+      buffer_ += control;
+      ++next_;
+      return;
+    }
+    switch (code) {
       case '"':
       case '\\':
       case '/':
         buffer_ += code;
-        break;
-      case 'b':
-        buffer_ += '\b';
-        break;
-      case 'f':
-        buffer_ += '\f';
-        break;
-      case 'n':
-        buffer_ += '\n';
-        break;
-      case 'r':
-        buffer_ += '\r';
-        break;
-      case 't':
-        buffer_ += '\t';
         break;
       case 'u':
         ++next_;

@@ -39,22 +39,12 @@ char32_t Scanner::unicode_escape() {
 void Scanner::string_escape() {
   const Position start = position();
   ++offset_;
+  if (const char control = control_of_escape(peek())) {
+    buffer_ += control;
+    ++offset_;
+    return;
+  }
   switch (peek()) {
-    case 't':
-      buffer_ += '\t';
-      break;
-    case 'b':
-      buffer_ += '\b';
-      break;
-    case 'n':
-      buffer_ += '\n';
-      break;
-    case 'r':
-      buffer_ += '\r';
-      break;
-    case 'f':
-      buffer_ += '\f';
-      break;
     case '"':
     case '\'':
     case '\\':

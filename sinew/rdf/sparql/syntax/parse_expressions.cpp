@@ -73,36 +73,35 @@ Expression Parser::chain(Operator op, std::size_t offset, Expression left, Expre
   return both;
 }
 
-Expression Parser::additive_expression() {
+// a + b - c: operators of one precedence, from left to right.
+Expression Parser::row_of(const Row& row) {
   const std::size_t offset = token_.offset;
-  Expression left = multiplicative_expression();
+  Expression left = (this->*row.operand)();
   std::size_t length = 0;
-  while (at("+") || at("-")) {
+  while (at(row.marks[0]) || at(row.marks[1])) {
     if (++length > kMaximumNesting) {
-      fail(fmt::format("more than {} sums in a row", kMaximumNesting),
-           "name partial sums with BIND");
+      fail(fmt::format("more than {} {} in a row", kMaximumNesting, row.called),
+           fmt::format("name partial {} with BIND", row.called));
     }
-    const Operator op = at("+") ? Operator::kAdd : Operator::kSubtract;
+    const Operator op = row.operators[at(row.marks[0]) ? 0 : 1];
     advance();
-    left = chain(op, offset, std::move(left), multiplicative_expression());
+    left = chain(op, offset, std::move(left), (this->*row.operand)());
   }
   return left;
 }
 
+Expression Parser::additive_expression() {
+  return row_of({{"+", "-"},
+                 {Operator::kAdd, Operator::kSubtract},
+                 "sums",
+                 &Parser::multiplicative_expression});
+}
+
 Expression Parser::multiplicative_expression() {
-  const std::size_t offset = token_.offset;
-  Expression left = unary_expression();
-  std::size_t length = 0;
-  while (at("*") || at("/")) {
-    if (++length > kMaximumNesting) {
-      fail(fmt::format("more than {} products in a row", kMaximumNesting),
-           "name partial products with BIND");
-    }
-    const Operator op = at("*") ? Operator::kMultiply : Operator::kDivide;
-    advance();
-    left = chain(op, offset, std::move(left), unary_expression());
-  }
-  return left;
+  return row_of({{"*", "/"},
+                 {Operator::kMultiply, Operator::kDivide},
+                 "products",
+                 &Parser::unary_expression});
 }
 
 Expression Parser::unary_expression() {

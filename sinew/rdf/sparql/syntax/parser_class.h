@@ -106,6 +106,13 @@ class Parser {
   Expression or_expression();
   Expression and_expression();
   Expression relational_expression();
+  struct Row {
+    std::string_view marks[2];
+    Operator operators[2];
+    const char* called;  // in errors: "sums"
+    Expression (Parser::*operand)();
+  };
+  Expression row_of(const Row& row);
   Expression additive_expression();
   Expression multiplicative_expression();
   Expression unary_expression();
