@@ -67,11 +67,19 @@ void write_block(const Computation& computation, const Place& place, LLVMTypeRef
   LLVMBuildRetVoid(place.builder);
 }
 
-LLVMValueRef declare(LLVMModuleRef module, const char* name, std::vector<LLVMTypeRef> parameters) {
+LLVMValueRef declare(LLVMModuleRef module, const char* name, LLVMTypeRef result,
+                     std::vector<LLVMTypeRef> parameters) {
+  return LLVMAddFunction(
+      module, name,
+      LLVMFunctionType(result, parameters.data(), static_cast<unsigned>(parameters.size()), false));
+}
+
+LLVMValueRef declare_repair(LLVMModuleRef module) {
   const LLVMContextRef context = LLVMGetModuleContext(module);
-  return LLVMAddFunction(module, name,
-                         LLVMFunctionType(LLVMVoidTypeInContext(context), parameters.data(),
-                                          static_cast<unsigned>(parameters.size()), false));
+  const LLVMTypeRef pointer = LLVMPointerTypeInContext(context, 0);
+  LLVMTypeRef both[] = {pointer, pointer};
+  return declare(module, kSincosRepairName, LLVMStructTypeInContext(context, both, 2, false),
+                 {pointer, pointer, pointer, LLVMInt64TypeInContext(context)});
 }
 
 void add_attribute(LLVMValueRef function, unsigned where, const char* name) {
@@ -91,7 +99,7 @@ class Module {
                                        : LLVMDoubleTypeInContext(context)),
         pointer_(LLVMPointerTypeInContext(context, 0)),
         size_(LLVMInt64TypeInContext(context)),
-        repair_(declare(module_, kSincosRepairName, {pointer_, pointer_, pointer_, size_})) {}
+        repair_(declare_repair(module_)) {}
   ~Module() { LLVMDisposeBuilder(builder_); }
   Module(const Module&) = delete;
   Module& operator=(const Module&) = delete;
@@ -103,12 +111,13 @@ class Module {
 
  private:
   Place begin(const char* name, std::vector<LLVMTypeRef> parameters) const {
-    const LLVMValueRef function = declare(module_, name, std::move(parameters));
+    const LLVMValueRef function = declare(
+        module_, name, LLVMVoidTypeInContext(LLVMGetModuleContext(module_)), std::move(parameters));
     for (const unsigned parameter : {1u, 2u}) add_attribute(function, parameter, "noalias");
     add_attribute(function, LLVMAttributeFunctionIndex, "nounwind");
     LLVMPositionBuilderAtEnd(
         builder_, LLVMAppendBasicBlockInContext(LLVMGetModuleContext(module_), function, "entry"));
-    return {builder_, function, repair_, options_.fuse};
+    return {builder_, function, repair_, options_.fuse, options_.broadcasts};
   }
 
   EmitOptions options_;

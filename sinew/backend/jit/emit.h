@@ -16,7 +16,7 @@ namespace sinew::backend {
 inline constexpr const char* kSingleName = "sinew_single";
 inline constexpr const char* kOneByOneName = "sinew_one_by_one";
 inline constexpr const char* kBlockName = "sinew_block";
-// void(const double* x, double* sine, double* cosine, size_t n): see sincos.h.
+// See sincos.h.
 inline constexpr const char* kSincosRepairName = "sinew_sincos_repair";
 
 // What is compiled.
@@ -27,12 +27,13 @@ struct CodeSource {
 };
 
 // Values that the function of one sample holds in registers; a few are left to the generator.
-inline constexpr std::uint32_t kRegistersOf32 = 28;
+inline constexpr std::uint32_t kRegistersOf32 = 30;
 inline constexpr std::uint32_t kRegistersOf16 = 15;
 
 // What the machine can do.
 struct EmitOptions {
-  bool fuse = false;  // products that are used once into fused multiply-adds
+  bool fuse = false;        // products that are used once into fused multiply-adds
+  bool broadcasts = false;  // see place.h
   std::uint32_t registers = kRegistersOf16;
 };
 

@@ -1,10 +1,14 @@
 #include "sinew/backend/jit/ir.h"
 
+#include <bit>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 namespace sinew::backend {
 namespace {
+
+constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
 
 bool is_vector(LLVMTypeRef type) { return LLVMGetTypeKind(type) == LLVMVectorTypeKind; }
 
@@ -16,18 +20,42 @@ LLVMValueRef in_every_lane(LLVMValueRef value, LLVMTypeRef type) {
 
 }  // namespace
 
-Ir::Ir(LLVMBuilderRef builder, LLVMTypeRef type, bool fuse)
+// An instruction that is empty.
+LLVMValueRef hidden(LLVMBuilderRef builder, LLVMValueRef pointer) {
+  static constexpr char kSameRegister[] = "=r,0";
+  LLVMTypeRef of = LLVMTypeOf(pointer);
+  const LLVMTypeRef type = LLVMFunctionType(of, &of, 1, false);
+  const LLVMValueRef nothing =
+      LLVMGetInlineAsm(type, "", 0, kSameRegister, sizeof kSameRegister - 1, false, false,
+                       LLVMInlineAsmDialectATT, false);
+  return LLVMBuildCall2(builder, type, nothing, &pointer, 1, "");
+}
+
+Ir::Ir(LLVMBuilderRef builder, LLVMTypeRef type, bool fuse, LoadConstant constant)
     : builder_(builder),
       context_(LLVMGetTypeContext(type)),
       type_(type),
       element_type_(is_vector(type) ? LLVMGetElementType(type) : type),
       lanes_(is_vector(type) ? LLVMGetVectorSize(type) : 1),
-      fuse_(fuse) {
+      fuse_(fuse),
+      constant_(std::move(constant)) {
   const LLVMTypeRef integer64 = LLVMInt64TypeInContext(context_);
   integer_type_ = is_vector(type) ? LLVMVectorType(integer64, lanes_) : integer64;
 }
 
+LLVMValueRef Ir::load_in_every_lane(std::uint64_t bits, LLVMTypeRef lane) const {
+  const LLVMValueRef value = constant_(bits, lane);
+  if (lanes_ == 1) return value;
+  const LLVMTypeRef index = LLVMInt32TypeInContext(context_);
+  const LLVMValueRef undefined = LLVMGetUndef(LLVMVectorType(lane, lanes_));
+  const LLVMValueRef first =
+      LLVMBuildInsertElement(builder_, undefined, value, LLVMConstInt(index, 0, false), "");
+  return LLVMBuildShuffleVector(builder_, first, undefined,
+                                LLVMConstNull(LLVMVectorType(index, lanes_)), "");
+}
+
 LLVMValueRef Ir::number(double value) const {
+  if (constant_) return load_in_every_lane(std::bit_cast<std::uint64_t>(value), element_type_);
   return in_every_lane(LLVMConstReal(element_type_, value), type_);
 }
 
@@ -43,6 +71,7 @@ LLVMValueRef Ir::from_double(LLVMValueRef a) const {
 }
 
 LLVMValueRef Ir::integer(std::uint64_t value) const {
+  if (constant_) return load_in_every_lane(value, LLVMInt64TypeInContext(context_));
   return in_every_lane(LLVMConstInt(LLVMInt64TypeInContext(context_), value, false), type_);
 }
 
@@ -104,18 +133,20 @@ LLVMValueRef Ir::add_integer(LLVMValueRef bits, std::uint64_t value) const {
 }
 LLVMValueRef Ir::bit_is_set(LLVMValueRef bits, unsigned bit) const {
   const LLVMValueRef masked = LLVMBuildAnd(builder_, bits, integer(std::uint64_t{1} << bit), "");
-  return LLVMBuildICmp(builder_, LLVMIntNE, masked, integer(0), "");
+  return LLVMBuildICmp(builder_, LLVMIntNE, masked, LLVMConstNull(integer_type_), "");
 }
-LLVMValueRef Ir::move_bit_to_sign(LLVMValueRef bits, unsigned bit) const {
-  const LLVMValueRef masked = LLVMBuildAnd(builder_, bits, integer(std::uint64_t{1} << bit), "");
-  return LLVMBuildShl(builder_, masked, integer(63 - bit), "");
+LLVMValueRef Ir::shift_left(LLVMValueRef bits, unsigned places) const {
+  const LLVMTypeRef type = LLVMInt64TypeInContext(context_);
+  return LLVMBuildShl(builder_, bits, in_every_lane(LLVMConstInt(type, places, false), type_), "");
 }
-LLVMValueRef Ir::flip_sign(LLVMValueRef a, LLVMValueRef sign_bits) const {
-  return LLVMBuildBitCast(builder_, LLVMBuildXor(builder_, to_integer_bits(a), sign_bits, ""),
-                          type_, "");
+LLVMValueRef Ir::flip_sign(LLVMValueRef a, LLVMValueRef bits) const {
+  const LLVMValueRef sign = LLVMBuildAnd(builder_, bits, integer(kSign), "");
+  return LLVMBuildBitCast(builder_, LLVMBuildXor(builder_, to_integer_bits(a), sign, ""), type_,
+                          "");
 }
 LLVMValueRef Ir::magnitude_at_most(LLVMValueRef a, double limit) const {
-  const LLVMValueRef magnitude = intrinsic("llvm.fabs", &a, 1);
+  const LLVMValueRef bits = LLVMBuildAnd(builder_, to_integer_bits(a), integer(~kSign), "");
+  const LLVMValueRef magnitude = LLVMBuildBitCast(builder_, bits, type_, "");
   return LLVMBuildFCmp(builder_, LLVMRealOLE, magnitude, number(limit), "");
 }
 

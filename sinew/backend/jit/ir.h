@@ -6,14 +6,22 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 namespace sinew::backend {
 
+// The same, but LLVM does not look into it: what address it is, or where it lies.
+LLVMValueRef hidden(LLVMBuilderRef builder, LLVMValueRef pointer);
+
 class Ir {
  public:
+  // Where constants are in memory: a load of one lane, of a type as wide as a double.
+  using LoadConstant = std::function<LLVMValueRef(std::uint64_t bits, LLVMTypeRef type)>;
+
   // `type`: double, float, or a vector of them; integers and their bits are for doubles only.
-  // `fuse`: multiply_add rounds once.
-  Ir(LLVMBuilderRef builder, LLVMTypeRef type, bool fuse);
+  // `fuse`: multiply_add rounds once. `constant`: for doubles; without it, LLVM says where they
+  // are.
+  Ir(LLVMBuilderRef builder, LLVMTypeRef type, bool fuse, LoadConstant constant = nullptr);
 
   LLVMContextRef context() const { return context_; }
   LLVMTypeRef type() const { return type_; }
@@ -37,9 +45,10 @@ class Ir {
 
   LLVMValueRef to_integer_bits(LLVMValueRef a) const;  // the same bits as 64-bit integers
   LLVMValueRef add_integer(LLVMValueRef bits, std::uint64_t value) const;
-  LLVMValueRef bit_is_set(LLVMValueRef bits, unsigned bit) const;        // a mask
-  LLVMValueRef move_bit_to_sign(LLVMValueRef bits, unsigned bit) const;  // all others 0
-  LLVMValueRef flip_sign(LLVMValueRef a, LLVMValueRef sign_bits) const;
+  LLVMValueRef bit_is_set(LLVMValueRef bits, unsigned bit) const;     // a mask
+  LLVMValueRef shift_left(LLVMValueRef bits, unsigned places) const;  // towards the sign
+  // Where the highest of the bits is set.
+  LLVMValueRef flip_sign(LLVMValueRef a, LLVMValueRef bits) const;
   LLVMValueRef magnitude_at_most(LLVMValueRef a, double limit) const;  // a mask; false for NaN
   LLVMValueRef all(LLVMValueRef mask) const;                           // one bit
 
@@ -50,6 +59,7 @@ class Ir {
 
  private:
   LLVMValueRef integer(std::uint64_t value) const;
+  LLVMValueRef load_in_every_lane(std::uint64_t bits, LLVMTypeRef lane) const;
   LLVMValueRef element(LLVMValueRef array, std::size_t index) const;
   LLVMValueRef intrinsic(const char* name, LLVMValueRef* arguments, unsigned count) const;
 
@@ -60,6 +70,7 @@ class Ir {
   LLVMTypeRef integer_type_;
   unsigned lanes_;
   bool fuse_;
+  LoadConstant constant_;
 };
 
 }  // namespace sinew::backend

@@ -9,6 +9,8 @@
 #include <llvm/CodeGen/TargetPassConfig.h>
 
 #include <iterator>
+
+#include "sinew/backend/jit/register_allocator.h"
 #endif
 
 namespace sinew::backend {
@@ -20,8 +22,14 @@ namespace {
 thread_local CodeOrder::Who who_of_thread = CodeOrder::kByGenerator;
 
 llvm::FunctionPass* register_allocator() {
-  return who_of_thread == CodeOrder::kAsWritten ? llvm::createBasicRegisterAllocator()
-                                                : llvm::createGreedyRegisterAllocator();
+  switch (who_of_thread) {
+    case CodeOrder::kPlanned:
+      return create_ordered_allocator();
+    case CodeOrder::kAsWritten:
+      return llvm::createBasicRegisterAllocator();
+    default:
+      return llvm::createGreedyRegisterAllocator();
+  }
 }
 
 // Leaves all where it is.

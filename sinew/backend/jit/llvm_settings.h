@@ -12,7 +12,9 @@ void set_up_code_generator();
 class CodeOrder {
  public:
   enum Who {
-    kAsWritten,             // the order stays, and registers are given by LLVM's basic allocator
+    kPlanned,               // the order stays, and as many values at a time as there are registers
+                            // (register_allocator.h)
+    kAsWritten,             // the order stays; LLVM's basic allocator
     kRegistersByGenerator,  // the order stays; LLVM's greedy allocator
     kByGenerator            // LLVM's scheduler and greedy allocator: most of a compilation's time
   };

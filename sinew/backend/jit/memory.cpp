@@ -52,16 +52,8 @@ LLVMValueRef Memory::load(LLVMTypeRef type, LLVMValueRef from) const {
   return value;
 }
 
-// An instruction that is empty, but LLVM does not look into it.
 Memory::Pointer Memory::hidden(LLVMTypeRef number, const Pointer& from, std::size_t at) const {
-  static constexpr char kSameRegister[] = "=r,0";
-  LLVMValueRef value = address(number, from, at);
-  LLVMTypeRef pointer = LLVMTypeOf(value);
-  const LLVMTypeRef type = LLVMFunctionType(pointer, &pointer, 1, false);
-  const LLVMValueRef nothing =
-      LLVMGetInlineAsm(type, "", 0, kSameRegister, sizeof kSameRegister - 1, false, false,
-                       LLVMInlineAsmDialectATT, false);
-  return {LLVMBuildCall2(place_.builder, type, nothing, &value, 1, ""), at};
+  return {backend::hidden(place_.builder, address(number, from, at)), at};
 }
 
 Memory::Pointer Memory::hidden_middle(LLVMTypeRef number, LLVMValueRef array,
@@ -77,9 +69,8 @@ LLVMValueRef Memory::array(LLVMTypeRef number, std::size_t size) const {
 
 void Memory::write_sines(const std::vector<LLVMValueRef>& packs) {
   cosines_ = packs.size() * lanes(LLVMTypeOf(packs.front()));
-  sines_ = array(double_, 2 * cosines_);
-  early_ =
-      emit_sincos_to(place_, packs, sines_, address(double_, {sines_, 0}, cosines_), {&in_, &out_});
+  sines_ = array(double_, 3 * cosines_);
+  early_ = emit_sincos_to(place_, packs, sines_, in_, out_);
 }
 
 void Memory::begin() {

@@ -10,6 +10,7 @@ struct Place {
   LLVMValueRef function = nullptr;
   LLVMValueRef repair = nullptr;  // see sincos.h
   bool fuse = false;              // products into sums
+  bool broadcasts = false;  // instructions read one number from memory for all lanes of a vector
 };
 
 // Bytes of a float or a double.

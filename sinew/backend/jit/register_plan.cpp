@@ -6,6 +6,10 @@ namespace sinew::backend {
 
 namespace {
 
+// What lies in memory need not be written there to make room: it goes before others that are read
+// again later, up to so many times as far away.
+constexpr std::uint32_t kInMemory = 4;
+
 class RegisterPlanner {
  public:
   explicit RegisterPlanner(const ValueSteps& steps)
@@ -53,10 +57,13 @@ class RegisterPlanner {
       if (!stays) plan_.leaving[step].push_back(value);
       return !stays;
     });
+    const auto cost = [&](std::uint32_t value) {
+      return distance(value) * (is_in_memory(value) ? kInMemory : 1);
+    };
     while (held_.size() > registers) {
-      const auto last = std::max_element(
-          held_.begin(), held_.end(),
-          [&](std::uint32_t a, std::uint32_t b) { return distance(a) < distance(b); });
+      const auto last =
+          std::max_element(held_.begin(), held_.end(),
+                           [&](std::uint32_t a, std::uint32_t b) { return cost(a) < cost(b); });
       plan_.leaving[step].push_back(*last);
       if (computed_[*last]) plan_.slot[*last] = 0;  // share_slots says which
       held_.erase(last);

@@ -3,7 +3,8 @@
 // Dynamics of an arm have three times as many values alive as a processor has registers. LLVM's
 // allocators, which look at one value after the other, spend a third of the code on writing values
 // to the stack and fetching them; for straight-line code one knows when each value is read next,
-// and the best choice is to let that one go which is read again last (Belady 1966).
+// and the best choice is to let that one go which is read again last (Belady 1966), or something
+// that lies in memory anyway and is not needed soon.
 // What goes is written to an array when it is computed, and fetched for its next reader.
 #pragma once
 

@@ -73,10 +73,10 @@ Pair fast_sincos(const Ir& ir, LLVMValueRef x) {
 
   // Quadrant q: (sin, cos) = (s, c), (c, -s), (-s, -c), (-c, s).
   const LLVMValueRef odd = ir.bit_is_set(bits, 0);
-  const LLVMValueRef sign_of_sine = ir.move_bit_to_sign(bits, 1);
-  const LLVMValueRef sign_of_cosine = ir.move_bit_to_sign(ir.add_integer(bits, 1), 1);
-  return {ir.flip_sign(ir.select(odd, cosine, sine), sign_of_sine),
-          ir.flip_sign(ir.select(odd, sine, cosine), sign_of_cosine)};
+  const LLVMValueRef second = ir.shift_left(bits, 62);  // of the low bits is now the sign
+  const LLVMValueRef of_next = ir.add_integer(second, std::uint64_t{1} << 62);
+  return {ir.flip_sign(ir.select(odd, cosine, sine), second),
+          ir.flip_sign(ir.select(odd, sine, cosine), of_next)};
 }
 
 // Those of all angles; a bit that says whether the method covers all of them.
@@ -104,12 +104,13 @@ class Repair {
     LLVMBuildCondBr(builder, covered, next_, slow_);
     LLVMPositionBuilderAtEnd(builder, slow_);
   }
-  void call(LLVMValueRef repair, LLVMValueRef angles, LLVMValueRef sines, LLVMValueRef cosines,
-            std::size_t n) const {
-    const LLVMContextRef context = LLVMGetTypeContext(LLVMTypeOf(angles));
-    LLVMValueRef arguments[] = {angles, sines, cosines,
+  // `values`: see sinew_sincos_repair. Returns the pointers that were handed over.
+  LLVMValueRef call(LLVMValueRef repair, LLVMValueRef first, LLVMValueRef second,
+                    LLVMValueRef values, std::size_t n) const {
+    const LLVMContextRef context = LLVMGetTypeContext(LLVMTypeOf(values));
+    LLVMValueRef arguments[] = {first, second, values,
                                 LLVMConstInt(LLVMInt64TypeInContext(context), n, false)};
-    LLVMBuildCall2(builder_, LLVMGlobalGetValueType(repair), repair, arguments, 4, "");
+    return LLVMBuildCall2(builder_, LLVMGlobalGetValueType(repair), repair, arguments, 4, "");
   }
   void end() const {
     LLVMBuildBr(builder_, next_);
@@ -135,13 +136,71 @@ class Repair {
   LLVMBasicBlockRef fast_, slow_ = nullptr, next_ = nullptr;
 };
 
-SincosValues load_all(const Ir& ir, LLVMValueRef sines, LLVMValueRef cosines, std::size_t n) {
+// Sines, cosines and angles as the repair wants them, one behind the other in one array.
+void store_values(const Ir& ir, const SincosValues& values, LLVMValueRef array) {
+  const std::size_t n = values.sine.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    ir.store_element(values.sine[i], array, i);
+    ir.store_element(values.cosine[i], array, n + i);
+  }
+}
+void store_angles(const Ir& ir, const std::vector<LLVMValueRef>& angles, LLVMValueRef array) {
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    ir.store_element(angles[i], array, 2 * angles.size() + i);
+  }
+}
+SincosValues load_values(const Ir& ir, LLVMValueRef array, std::size_t n) {
   SincosValues values;
   for (std::size_t i = 0; i < n; ++i) {
-    values.sine.push_back(ir.load_element(sines, i));
-    values.cosine.push_back(ir.load_element(cosines, i));
+    values.sine.push_back(ir.load_element(array, i));
+    values.cosine.push_back(ir.load_element(array, n + i));
   }
   return values;
+}
+
+// A table of constants behind a pointer of its own: an instruction takes one number from there for
+// all lanes, with an address of one byte.
+class ConstantTable {
+ public:
+  explicit ConstantTable(const Place& place) : place_(place) {
+    const LLVMModuleRef module = LLVMGetGlobalParent(place.function);
+    number_ = LLVMInt64TypeInContext(LLVMGetModuleContext(module));
+    begin_ = LLVMAddGlobal(module, number_, "sine_constants_begin");
+    pointer_ = hidden(place.builder, begin_);
+  }
+  // A place for each use, so that LLVM does not hold it in a register for the next one.
+  LLVMValueRef load(std::uint64_t bits, LLVMTypeRef type) {
+    LLVMValueRef at = LLVMConstInt(number_, constants_.size(), false);
+    constants_.push_back(LLVMConstInt(number_, bits, false));
+    return LLVMBuildLoad2(place_.builder, type,
+                          LLVMBuildGEP2(place_.builder, number_, pointer_, &at, 1, ""), "");
+  }
+  void end() {
+    const LLVMValueRef list = LLVMConstArray2(number_, constants_.data(), constants_.size());
+    const LLVMValueRef table =
+        LLVMAddGlobal(LLVMGetGlobalParent(place_.function), LLVMTypeOf(list), "sine_constants");
+    LLVMSetInitializer(table, list);
+    LLVMSetGlobalConstant(table, true);
+    LLVMSetLinkage(table, LLVMPrivateLinkage);
+    LLVMReplaceAllUsesWith(begin_, table);
+    LLVMDeleteGlobal(begin_);
+  }
+
+ private:
+  const Place& place_;
+  LLVMTypeRef number_;
+  LLVMValueRef begin_, pointer_;  // `begin_` stands for the table until it is known
+  std::vector<LLVMValueRef> constants_;
+};
+
+LLVMValueRef fast_sincos_from_table(const Place& place, const std::vector<LLVMValueRef>& angles,
+                                    SincosValues& values) {
+  ConstantTable table(place);
+  const Ir ir(place.builder, LLVMTypeOf(angles.front()), place.fuse,
+              [&](std::uint64_t bits, LLVMTypeRef type) { return table.load(bits, type); });
+  const LLVMValueRef covered = fast_sincos(ir, place.builder, angles, values);
+  table.end();
+  return covered;
 }
 
 }  // namespace
@@ -153,59 +212,51 @@ SincosValues emit_sincos(LLVMBuilderRef builder, LLVMValueRef function, LLVMValu
   const Ir ir(builder, LLVMTypeOf(angles.front()), fuse);
   const Repair slow(builder, function, fast_sincos(ir, builder, angles, values));
 
-  // The repair works in memory; the arrays are made in the entry block so that they are made once.
+  // The repair works in memory; the array is made in the entry block so that it is made once.
   const std::size_t n = angles.size();
-  const LLVMValueRef x_array = ir.entry_array(function, n);
-  const LLVMValueRef sines = ir.entry_array(function, n);
-  const LLVMValueRef cosines = ir.entry_array(function, n);
-  for (std::size_t i = 0; i < n; ++i) {
-    ir.store_element(angles[i], x_array, i);
-    ir.store_element(values.sine[i], sines, i);
-    ir.store_element(values.cosine[i], cosines, i);
-  }
-  slow.call(repair, x_array, sines, cosines, n * ir.lanes());
-  const SincosValues repaired = load_all(ir, sines, cosines, n);
+  const LLVMValueRef array = ir.entry_array(function, 3 * n);
+  store_values(ir, values, array);
+  store_angles(ir, angles, array);
+  const LLVMValueRef none = LLVMConstNull(LLVMTypeOf(array));
+  slow.call(repair, none, none, array, n * ir.lanes());
+  const SincosValues repaired = load_values(ir, array, n);
   slow.end();
   slow.merge(values, repaired);
   return values;
 }
 
 SincosValues emit_sincos_to(const Place& place, const std::vector<LLVMValueRef>& angles,
-                            LLVMValueRef sines, LLVMValueRef cosines,
-                            const std::vector<LLVMValueRef*>& pointers) {
+                            LLVMValueRef array, LLVMValueRef& first, LLVMValueRef& second) {
   SincosValues values;
   const Ir ir(place.builder, LLVMTypeOf(angles.front()), place.fuse);
-  const LLVMValueRef covered = fast_sincos(ir, place.builder, angles, values);
+  const LLVMValueRef covered = place.broadcasts ? fast_sincos_from_table(place, angles, values)
+                                                : fast_sincos(ir, place.builder, angles, values);
   const std::size_t n = angles.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    ir.store_element(values.sine[i], sines, i);
-    ir.store_element(values.cosine[i], cosines, i);
-  }
+  store_values(ir, values, array);
   const Repair slow(place.builder, place.function, covered);
-  const LLVMValueRef x_array = ir.entry_array(place.function, n);
-  for (std::size_t i = 0; i < n; ++i) ir.store_element(angles[i], x_array, i);
-  const Ir address(place.builder, LLVMTypeOf(sines), false);
-  const LLVMValueRef saved = address.entry_array(place.function, pointers.size());
-  for (std::size_t i = 0; i < pointers.size(); ++i) address.store_element(*pointers[i], saved, i);
-  slow.call(place.repair, x_array, sines, cosines, n * ir.lanes());
-  std::vector<LLVMValueRef> again;
-  for (std::size_t i = 0; i < pointers.size(); ++i) {
-    again.push_back(address.load_element(saved, i));
-    LLVMSetVolatile(again.back(), true);  // LLVM would rather save a register around the call
-  }
-  const SincosValues repaired = load_all(ir, sines, cosines, n);
+  store_angles(ir, angles, array);
+  const LLVMValueRef both = slow.call(place.repair, first, second, array, n * ir.lanes());
+  const LLVMValueRef again[] = {LLVMBuildExtractValue(place.builder, both, 0, ""),
+                                LLVMBuildExtractValue(place.builder, both, 1, "")};
+  const SincosValues repaired = load_values(ir, array, n);
   slow.end();
-  for (std::size_t i = 0; i < pointers.size(); ++i) slow.merge(*pointers[i], again[i]);
+  slow.merge(first, again[0]);
+  slow.merge(second, again[1]);
   slow.merge(values, repaired);
   return values;
 }
 
-extern "C" void sinew_sincos_repair(const double* x, double* sine, double* cosine, std::size_t n) {
+extern "C" SincosPointers sinew_sincos_repair(const void* first, void* second, double* values,
+                                              std::size_t n) {
+  double* const sine = values;
+  double* const cosine = values + n;
+  const double* const x = values + 2 * n;
   for (std::size_t i = 0; i < n; ++i) {
     if (std::fabs(x[i]) <= kLargestAngle) continue;
     sine[i] = std::sin(x[i]);
     cosine[i] = std::cos(x[i]);
   }
+  return {first, second};
 }
 
 }  // namespace sinew::backend

@@ -27,14 +27,20 @@ struct SincosValues {
 SincosValues emit_sincos(LLVMBuilderRef builder, LLVMValueRef function, LLVMValueRef repair,
                          const std::vector<LLVMValueRef>& angles, bool fuse);
 
-// The same of vectors, all as wide, written one behind the other to `sines` and `cosines`, of which
-// the repair happens in place. `pointers` are needed afterwards: they come back by way of memory,
-// so that the repair's call costs nothing where it is not made.
+// The same of vectors, all as wide, written to an array: all sines, behind them all cosines. Behind
+// those it has as many numbers again for the angles, should they need repair, which happens in
+// place. Two pointers that are needed afterwards come back from it, so that they need be kept
+// nowhere where it is not called.
 SincosValues emit_sincos_to(const Place& place, const std::vector<LLVMValueRef>& angles,
-                            LLVMValueRef sines, LLVMValueRef cosines,
-                            const std::vector<LLVMValueRef*>& pointers);
+                            LLVMValueRef array, LLVMValueRef& first, LLVMValueRef& second);
 
-// Replaces what is wrong for angles that the fast method does not cover.
-extern "C" void sinew_sincos_repair(const double* x, double* sine, double* cosine, std::size_t n);
+// Replaces what is wrong for angles that the fast method does not cover. `values`: n sines, n
+// cosines and the n angles. Returns the two pointers as they are.
+struct SincosPointers {
+  const void* first;
+  void* second;
+};
+extern "C" SincosPointers sinew_sincos_repair(const void* first, void* second, double* values,
+                                              std::size_t n);
 
 }  // namespace sinew::backend

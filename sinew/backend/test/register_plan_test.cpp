@@ -59,6 +59,14 @@ TEST(RegisterPlan, WhatLiesInMemoryAnywayIsNotWritten) {
   EXPECT_EQ(plan.slot[0], kNone);
 }
 
+TEST(RegisterPlan, WhatLiesInMemoryMakesRoomBeforeWhatWouldHaveToBeWritten) {
+  // Nobody computes 0. It is read again after two steps, 1 after three.
+  const std::vector<Step> list = {{{0}, 1}, {{}, 2}, {{0, 2}, 3}, {{1, 3}, 4}};
+  const RegisterPlan plan = plan_registers(steps(5, list), 2, kFar);
+  EXPECT_EQ(plan.leaving[1], std::vector<std::uint32_t>{0});
+  EXPECT_EQ(plan.size, 0u);
+}
+
 TEST(RegisterPlan, WhatLiesInMemoryIsHeldForItsNextReaderAsFarAsSaid) {
   const std::vector<Step> list = {{{0}, 1}, {{1}, 2}, {{2, 0}, 3}};
   EXPECT_EQ(plan_registers(steps(4, list), 9, 2).leaving[0], std::vector<std::uint32_t>{});
