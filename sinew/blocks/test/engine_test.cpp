@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <numeric>
 #include <random>
@@ -101,7 +104,8 @@ dproto to :: d { semantic = A coord = two algebraic = other ddr = :: c99 { struc
       // Which of two NaN comes out of a sum is the compiler's choice.
       if (!std::isfinite(std::accumulate(b.d, b.d + 6, double(b.f)))) continue;
       ++compared;
-      ASSERT_EQ(std::memcmp(&a, &b, sizeof a), 0) << "round " << round;
+      using Bits = std::array<std::uint64_t, sizeof a / sizeof(std::uint64_t)>;
+      ASSERT_EQ(std::bit_cast<Bits>(a), std::bit_cast<Bits>(b)) << "round " << round;
     }
   }
   EXPECT_GT(compared, 3000u);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <vector>
 
 #include "allocations.h"
 #include "seen_part.h"
@@ -227,7 +228,7 @@ TEST(Access, WhatWasHandedOutIsTakenBackWhenTheRightsChange) {
   Access access(cell.world, rights_of_the_cell(), cell.audit);
   Participant task = access.participant(kTask), camera = access.participant(kCamera);
   PreparedPose pose = task.read().prepare_pose(cell.query());
-  const PreparedPose copy = pose;
+  const std::vector<PreparedPose> copies = {pose};
   PreparedMotion motion = task.read().prepare_motion(cell.query());
   Triggers triggers(cell.world);
   const auto queue = std::make_shared<EventQueue>();
@@ -247,7 +248,7 @@ TEST(Access, WhatWasHandedOutIsTakenBackWhenTheRightsChange) {
   const std::size_t before = allocations();
   EXPECT_EQ(pose.latest_realtime(at_s(2)).status, Status::kForbidden);
   EXPECT_EQ(pose.at_realtime(at_s(1)).status, Status::kForbidden);
-  EXPECT_EQ(copy.latest_common_realtime().status, Status::kForbidden);
+  EXPECT_EQ(copies[0].latest_common_realtime().status, Status::kForbidden);
   EXPECT_EQ(motion.latest_realtime(at_s(2)).status, Status::kForbidden);
   EXPECT_EQ(allocations(), before);
   EXPECT_EQ(writer.write(at_s(3), Pose{}), Status::kOk);  // it still may

@@ -18,13 +18,13 @@ namespace {
 const std::string kCell = "https://w3id.org/sinew/examples/assembly_cell#";
 
 struct CellWorld {
-  explicit CellWorld(std::vector<std::string> files) {
+  explicit CellWorld(const std::vector<std::string>& files) {
     graph::Store store;
     graph::Places places;
     Report report;
     std::vector<std::filesystem::path> paths;
     for (const std::string& file : files) {
-      paths.push_back(SINEW_SOURCE_DIR "/examples/assembly_cell/" + file);
+      paths.emplace_back(SINEW_SOURCE_DIR "/examples/assembly_cell/" + file);
     }
     model::load_files(paths, {}, store, places, report);
     report.throw_if_errors();

@@ -161,7 +161,7 @@ TEST(Blocks, AreCorrectedWithTheLastValue) {
     PreparedPose query =
         s.world.prepare_pose({.of = s.b, .with_respect_to = s.a, .avoid = {s.joint}});
     std::vector<Pose> history;
-    for (int i = 1; i < 60; ++i) {
+    for (std::int64_t i = 1; i < 60; ++i) {
       Pose X = random_pose(random);
       ASSERT_EQ(
           by_handle ? writer->write(at_ns(10 * i), X) : s.world.write(s.pose, at_ns(10 * i), X, {}),
@@ -208,14 +208,14 @@ TEST(Blocks, AreCorrectedWithTheLastValue) {
       shows(s.world, X);
       shows(before, old);  // the clone has what it had
       EXPECT_LT(difference(query.latest(at_ns(10 * i)).pose, X), 1e-12);
-      for (int back = 1; back <= std::min(i, 10); ++back) {
+      const std::int64_t few = std::min<std::int64_t>(i, 10);
+      for (std::int64_t back = 1; back <= few; ++back) {
         std::array<double, 16> then;
         const World::BlockBuffer one[] = {{0, then.data(), sizeof then}};
-        ASSERT_EQ(
-            s.world.read_blocks_at(s.pose, at_ns(10 * back + 10 * (i - std::min(i, 10))), one),
-            Status::kOk);
+        ASSERT_EQ(s.world.read_blocks_at(s.pose, at_ns(10 * back + 10 * (i - few)), one),
+                  Status::kOk);
         const std::array<double, 16> expected =
-            in_millimetres(history[static_cast<std::size_t>(back + i - std::min(i, 10) - 1)]);
+            in_millimetres(history[static_cast<std::size_t>(back + i - few - 1)]);
         for (std::size_t k = 0; k < 16; ++k) EXPECT_NEAR(then[k], expected[k], 1e-10);
       }
     }

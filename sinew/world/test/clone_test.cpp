@@ -130,7 +130,7 @@ TEST(Clone, RandomHistoriesStayApart) {
         case 2:
           if (worlds.size() < 12) worlds.push_back({copy.world.clone(), copy.expected, copy.last});
           break;
-        case 3:
+        default:
           if (worlds.size() > 1)
             worlds.erase(worlds.begin() + static_cast<std::ptrdiff_t>(random() % worlds.size()));
           break;

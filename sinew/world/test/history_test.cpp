@@ -94,14 +94,15 @@ TEST(History, AnswersQueriesOfThePastBeyondTheRing) {
     int last = 0;
     for (int i = 0; i < 300; ++i) {
       // One in four corrects the past, now and then one that the small ring has long forgotten.
-      const int at =
-          i > 10 && random() % 4 == 0 ? static_cast<int>(random() % (10 * i)) : last += 10;
+      const int at = i > 10 && random() % 4 == 0
+                         ? static_cast<int>(random() % static_cast<unsigned>(10 * i))
+                         : last += 10;
       const Pose X = random_pose(random);
       ASSERT_EQ(world.write(kept, at_s(at), X, {}), Status::kOk);
       ASSERT_EQ(world.write(all, at_s(at), X, {}), Status::kOk);
     }
     for (int i = 0; i < 400; ++i) {
-      const Stamp at = at_s(static_cast<double>(random() % (10 * last)) / 10);
+      const Stamp at = at_s(static_cast<double>(random() % static_cast<unsigned>(10 * last)) / 10);
       const PoseAnswer expected = by_ring.at(at), found = by_history.at(at);
       ASSERT_EQ(found.status, expected.status);
       const World::Sample sample = world.at(kept, at), same = world.at(all, at);
@@ -167,7 +168,7 @@ TEST(History, AnswersThroughSeveralMeasurementsAndTheirMotion) {
     world.write(poses[0], at_s(i), Pose{{}, {x, 0, 0}}, {});
     world.write(poses[1], at_s(i), Pose{{}, {2 * x, 0, 0}}, {});
     for (std::size_t k = 0; k < 2; ++k) {
-      const double twist[] = {0, 0, 0, k + 1.0, 0, 0};
+      const double twist[] = {0, 0, 0, static_cast<double>(k) + 1, 0, 0};
       world.write(twists[k], at_s(i), twist, {});
     }
   }

@@ -51,7 +51,7 @@ std::string binary_stl() {
   bytes.append(reinterpret_cast<const char*>(&count), 4);
   for (const auto& face : kFaces) {
     float numbers[12] = {};
-    for (int k = 0; k < 3; ++k) std::memcpy(numbers + 3 + 3 * k, kCorners[face[k]], 12);
+    for (std::size_t k = 0; k < 3; ++k) std::memcpy(numbers + 3 + 3 * k, kCorners[face[k]], 12);
     bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
     bytes.append(2, '\0');
   }

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <random>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "allocations.h"
@@ -26,11 +27,12 @@ struct Track {
     cart = world.add_frame("http://x/cart");
     driving =
         world.add_relation({.name = "http://x/driving", .of = cart, .with_respect_to = floor});
-    logged = world.add_measurement({.name = "http://x/logged",
-                                    .relation = driving,
-                                    .model = {.provenance = "http://x/driver", .used_by = users},
-                                    .capacity = 15,
-                                    .keep_all = true});
+    logged = world.add_measurement(
+        {.name = "http://x/logged",
+         .relation = driving,
+         .model = {.provenance = "http://x/driver", .used_by = std::move(users)},
+         .capacity = 15,
+         .keep_all = true});
   }
   PreparedPose query() const { return world.prepare_pose({.of = cart, .with_respect_to = floor}); }
   World world;
@@ -70,10 +72,10 @@ TEST(RealtimeHistory, WhatAHandleWroteStaysWhenItIsLetGo) {
   ASSERT_EQ(again.write(at_ms(40), at_x(40)), Status::kOk);
   EXPECT_EQ(track.world.history(track.logged).size(), 41u);
   const PreparedPose query = track.query();
-  for (int i = 0; i < 80; ++i) {
+  for (std::int64_t i = 0; i < 80; ++i) {
     const PoseAnswer answer = query.at_realtime(stamp_of_ns(500'000 * i));
     ASSERT_EQ(answer.status, Status::kOk) << i;
-    EXPECT_NEAR(answer.pose.p.x, i / 2.0, 1e-12);
+    EXPECT_NEAR(answer.pose.p.x, static_cast<double>(i) / 2, 1e-12);
   }
 }
 

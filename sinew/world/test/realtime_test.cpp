@@ -60,13 +60,14 @@ TEST(Realtime, HandlesAllocateNothing) {
       {.of = chain.frames.back(), .with_respect_to = chain.frames.front()});
   double values[14];
   std::vector<World> clones;
-  for (int i = 1; i < 200; ++i) {
+  for (std::int64_t i = 1; i < 200; ++i) {
     if (i % 10 == 0) clones.push_back(chain.world.clone());
+    const auto x = static_cast<double>(i);
     const std::size_t before = allocations();
-    pair_values(i, values);
-    ASSERT_EQ(single.write(at_ns(10 * i), at_x(i)), Status::kOk);
-    ASSERT_EQ(other.write(at_ns(10 * i), at_x(-i)), Status::kOk);
-    ASSERT_EQ(single.correct(at_ns(10 * i - 5), at_x(i)), Status::kOk);
+    pair_values(x, values);
+    ASSERT_EQ(single.write(at_ns(10 * i), at_x(x)), Status::kOk);
+    ASSERT_EQ(other.write(at_ns(10 * i), at_x(-x)), Status::kOk);
+    ASSERT_EQ(single.correct(at_ns(10 * i - 5), at_x(x)), Status::kOk);
     ASSERT_EQ(batch.write(at_ns(10 * i), values), Status::kOk);
     const PoseAnswer latest = query.latest_realtime(at_ns(10 * i));
     const PoseAnswer at = query.at_realtime(at_ns(10 * i));
@@ -106,8 +107,8 @@ TEST(Realtime, AReaderNeverSeesHalfAnUpdate) {
   PairChain chain(4);
   double values[14];
   pair_values(0, values);
-  for (int pair = 0; pair < 4; ++pair) {
-    const auto first = static_cast<std::size_t>(2 * pair);
+  for (std::size_t pair = 0; pair < 4; ++pair) {
+    const std::size_t first = 2 * pair;
     const World::Value both[] = {
         {chain.measurements[first], std::span<const double>(values, 7)},
         {chain.measurements[first + 1], std::span<const double>(values + 7, 7)}};
@@ -116,15 +117,15 @@ TEST(Realtime, AReaderNeverSeesHalfAnUpdate) {
   std::atomic<bool> stop = false;
   std::atomic<std::uint64_t> answers = 0, busy = 0, wrong = 0, writes = 0, clones = 0;
   std::vector<std::thread> threads;
-  for (int pair = 0; pair < 3; ++pair) {
+  for (std::size_t pair = 0; pair < 3; ++pair) {
     threads.emplace_back([&, pair] {
-      const auto first = static_cast<std::size_t>(2 * pair);
+      const std::size_t first = 2 * pair;
       BatchWriter writer = chain.world.claim(
           std::vector<MeasurementId>{chain.measurements[first], chain.measurements[first + 1]},
           {"batch"});
       double both[14];
-      for (int i = 1; !stop; ++i) {
-        pair_values(i, both);
+      for (std::int64_t i = 1; !stop; ++i) {
+        pair_values(static_cast<double>(i), both);
         if (writer.write(at_ns(1000 * i), both) != Status::kOk) ++wrong;
         ++writes;
         if (i % 64 == 0) std::this_thread::yield();
@@ -133,8 +134,8 @@ TEST(Realtime, AReaderNeverSeesHalfAnUpdate) {
   }
   threads.emplace_back([&] {
     double both[14];
-    for (int i = 1; !stop; ++i) {
-      pair_values(i, both);
+    for (std::int64_t i = 1; !stop; ++i) {
+      pair_values(static_cast<double>(i), both);
       const World::Value values_of_both[] = {
           {chain.measurements[6], std::span<const double>(both, 7)},
           {chain.measurements[7], std::span<const double>(both + 7, 7)}};

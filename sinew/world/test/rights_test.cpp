@@ -33,7 +33,7 @@ struct CellWithRights {
     std::vector<std::filesystem::path> paths;
     for (const char* file :
          {"scene.jsonld", "task.jsonld", "measured.jsonld", "components.jsonld"}) {
-      paths.push_back(std::string(SINEW_SOURCE_DIR "/examples/assembly_cell/") + file);
+      paths.emplace_back(std::string(SINEW_SOURCE_DIR "/examples/assembly_cell/") + file);
     }
     Report loading;
     model::load_files(paths, {}, store, places, loading);
