@@ -52,7 +52,7 @@ TEST(SceneWords, TheAssemblyCellIsSavedInThem) {
   Report report;
   std::vector<std::filesystem::path> paths;
   for (const char* file : {"scene", "shapes", "components"}) {
-    paths.push_back(std::string(SINEW_SOURCE_DIR "/examples/assembly_cell/") + file + ".jsonld");
+    paths.emplace_back(std::string(SINEW_SOURCE_DIR "/examples/assembly_cell/") + file + ".jsonld");
   }
   model::load_files(paths, {}, store, places, report);
   World world;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <random>
 
 #include "random_poses.h"
@@ -43,7 +44,7 @@ double largest_gap(const Shape& a, const Shape& b) {
                   size.y * std::abs(dot(d, axis(shape.placement, 1))) +
                   size.z * std::abs(dot(d, axis(shape.placement, 2))));
   };
-  double largest = -INFINITY;
+  double largest = -std::numeric_limits<double>::infinity();
   for (const Vector3& direction : directions) {
     if (length(direction) < 1e-9) continue;
     const Vector3 d = (1 / length(direction)) * direction;

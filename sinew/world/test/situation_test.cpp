@@ -33,9 +33,10 @@ struct Workshop {
     measured("http://x/arm-pose", tool, {{}, {0, 0, 1}});
     measured("http://x/bolt-pose", bolt, {{}, {0.5, 0, 0}});
     world.add_object("http://x/bolt", bolt);
-    const auto add = [&](std::string name, std::string effect, std::string attach,
-                         std::string detach, std::string adds, std::string removes) {
-      actions.add({.name = std::move(name),
+    const auto add = [&](const std::string& name, const std::string& effect,
+                         const std::string& attach, const std::string& detach,
+                         const std::string& adds, const std::string& removes) {
+      actions.add({.name = name,
                    .effect = kPrefixes + effect,
                    .attach = attach.empty() ? "" : kPrefixes + attach,
                    .detach = detach.empty() ? "" : kPrefixes + detach,

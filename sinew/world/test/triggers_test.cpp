@@ -156,7 +156,7 @@ TEST(Triggers, TheMoreUrgentComesFirstAndEqualsInOrder) {
   EXPECT_EQ(order, (std::vector<TriggerId>{high, first, second, low}));
   // To executors too, which run at once here.
   order.clear();
-  const Executor at_once = [](std::function<void()> work) { work(); };
+  const Executor at_once = [](const std::function<void()>& work) { work(); };
   Triggers triggers(l.world);
   for (const int priority : {1, 2}) {
     triggers.add({.when = OnChange{l.seen},
@@ -188,7 +188,7 @@ TEST(Triggers, ACallbackMayAddAndRemoveTriggersAndWrite) {
   Listening l;
   TriggerId id;
   int told = 0;
-  const Executor at_once = [](std::function<void()> work) { work(); };
+  const Executor at_once = [](const std::function<void()>& work) { work(); };
   id = l.triggers.add({.when = OnChange{l.seen},
                        .callback =
                            [&](const Event&) {
