@@ -35,7 +35,8 @@ class ConverterCompiler {
     leave();
     converter_.code_ = code_.finish();
     if (!converter_.code_) return;
-    converter_.compiled_ = reinterpret_cast<Converter::Compiled>(converter_.code_.get());
+    converter_.compiled_ =
+        reinterpret_cast<Converter::Compiled>(const_cast<void*>(converter_.code_.get()));
     converter_.needs_constants_ = calls_;
   }
 
