@@ -38,7 +38,7 @@ class Model : public testing::Test {
   }
 
   void load(const std::string& text, LoadOptions options = {}) {
-    Loader(catalogue_, options)
+    Loader(catalogue_, std::move(options))
         .load(
             text, "model.json", terms_, [this](const graph::Quad& quad) { quads_.push_back(quad); },
             &places_, report_);
@@ -54,7 +54,7 @@ class Model : public testing::Test {
   }
   Problem thrown(const std::string& text, LoadOptions options = {}) {
     try {
-      load(text, options);
+      load(text, std::move(options));
     } catch (const Error& error) {
       return error.problems().front();
     }
