@@ -52,6 +52,8 @@ double number(std::string_view text, const std::string& file, std::size_t line,
 Table read_csv(std::string_view text, const std::string& file) {
   Table table;
   std::size_t line_number = 0;
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets write it
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   while (!text.empty()) {
     ++line_number;
     const auto end = text.find('\n');

@@ -16,7 +16,12 @@ void write_file(const std::string& folder, const std::string& name, const std::s
   write_output((std::filesystem::path(folder) / name).string(), text);
 }
 
-void write_files(const std::string& folder, const backend::GeneratedCode& code) {
+void write_files(const std::string& folder, const backend::GeneratedCode& code, bool updates) {
+  if (updates && !code.has_update) {
+    std::cerr << "note: no result depends on what is slow or held through anything that an update "
+                 "could compute once: "
+              << code.files.front().name << " has no update\n";
+  }
   for (const backend::SourceFile& file : code.files) write_file(folder, file.name, file.text);
 }
 
@@ -76,6 +81,16 @@ int run_generate(Arguments arguments) {
   app.add_flag("--trace", trace, "Write what each optimisation pass does to standard error");
   app.add_option("-o,--output", folder, "Folder for the files")->capture_default_str();
   if (const auto code = parse(app, std::move(arguments))) return *code;
+  if (target == "program") {
+    for (const char* option :
+         {"--style", "--scalar", "--trigonometry", "--slow", "--held", "--no-limbs", "--trace"}) {
+      if (app.count(option) == 0) continue;
+      std::cerr << "sinew generate: " << option
+                << " goes with --target c or --target cpp or --target cuda: it says how code is "
+                   "made of the program\nsee 'sinew generate --help'\n";
+      return kBadUsage;
+    }
+  }
 
   const std::vector<QueryOptions> questions =
       each ? each_solver(query) : std::vector<QueryOptions>();
@@ -109,13 +124,15 @@ int run_generate(Arguments arguments) {
     const unsigned threads = trace ? 1 : Workers::as_many_as_the_machine_has();
     for (const backend::GeneratedCode& code :
          generate_each(*models, models_options, questions, name, options, threads))
-      write_files(folder, code);
+      write_files(folder, code, !partial.empty());
     return kOk;
   }
   const program::Program program = program_of(*models, models_options, query, name);
   options.name = program.name;
   options.source = describe(models_options, query);
-  write_files(folder, with_places(*models, [&] { return backend::generate_c(program, options); }));
+  const backend::GeneratedCode code =
+      with_places(*models, [&] { return backend::generate_c(program, options); });
+  write_files(folder, code, !program::with_held(program, partial).empty());
   return kOk;
 }
 

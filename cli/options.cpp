@@ -34,7 +34,8 @@ void add_model_options(CLI::App& app, ModelOptions& options) {
                  "be repeated")
       ->allow_extra_args(false);
   app.add_flag("--lenient", options.lenient,
-               "Terms that no context defines, what is no element of URDF, and moments of inertia "
+               "Terms that no context defines, what is no element or attribute of URDF, and "
+               "moments of inertia "
                "that no real body has: warn, do not refuse");
 }
 

@@ -254,6 +254,7 @@ GeneratedCode generate_c(const program::Program& program, const COptions& asked)
   GeneratedCode code;
   code.operations = program::count_operations(scalar.computation);
   code.update = program::count_operations(scalar.update);
+  code.has_update = !scalar.update.results.empty();
   const std::optional<program::LimbProgram> limbs =
       options.style == Style::kFlat ? limbs_of(scalar, code.operations, options) : std::nullopt;
   if (limbs) code.with_limbs = limbs->operations();

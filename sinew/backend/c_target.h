@@ -62,6 +62,7 @@ struct GeneratedCode {
   std::vector<SourceFile> files;       // NAME.h; NAME.c, .cpp or .cu; NAME.json; C++: NAME.hpp
   program::OperationCount operations;  // of one evaluation of the flat style
   program::OperationCount update;      // of one call of NAME_update
+  bool has_update = false;             // false where nothing is slow or held that is worth keeping
   // Where limbs are side by side: operations of a single call, one on a vector counted once.
   std::optional<program::OperationCount> with_limbs;
 };

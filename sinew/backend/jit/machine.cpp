@@ -1,5 +1,4 @@
-// IR to machine code in this process, with LLVM's ORC, and the cache of compiled objects on disk.
-#include <fcntl.h>
+// IR to machine code in this process, with LLVM's ORC.
 #include <llvm-c/Analysis.h>
 #include <llvm-c/Core.h>
 #include <llvm-c/Error.h>
@@ -9,11 +8,9 @@
 #include <llvm-c/Target.h>
 #include <llvm-c/TargetMachine.h>
 #include <llvm-c/Transforms/PassBuilder.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,6 +21,7 @@
 #include "sinew/backend/jit/emit.h"
 #include "sinew/backend/jit/entry.h"
 #include "sinew/backend/jit/llvm_settings.h"
+#include "sinew/backend/jit/object_cache.h"
 #include "sinew/backend/jit/sincos.h"
 #include "sinew/base/error.h"
 
@@ -147,11 +145,6 @@ std::string compile_object(CodePart part, const CodeSource& source, const Host& 
   return object;
 }
 
-std::string read_cached(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // Empty where nothing is kept.
 std::filesystem::path cached_path(CodePart part, const CodeSource& source, const Host& host,
                                   const JitOptions& options) {
@@ -165,25 +158,6 @@ std::filesystem::path cached_path(CodePart part, const CodeSource& source, const
   const program::LimbProgram* const limbs = part == CodePart::kBlock ? nullptr : source.limbs;
   return std::filesystem::path(options.cache_folder) /
          (content_hash(source.computation, limbs, machine) + ".o");
-}
-
-// Keeping a compiled object is a convenience: where the folder cannot be written, the next run
-// compiles again.
-void write_cached(const std::filesystem::path& path, const std::string& object) {
-  std::error_code ignored;
-  std::filesystem::create_directories(path.parent_path(), ignored);
-  const std::filesystem::path part = path.string() + "." + std::to_string(getpid());
-  {
-    std::ofstream file(part, std::ios::binary);
-    file << object;
-    if (!file.flush()) {
-      file.close();
-      std::filesystem::remove(part, ignored);
-      return;
-    }
-  }
-  std::filesystem::rename(part, path, ignored);
-  if (ignored) std::filesystem::remove(part, ignored);
 }
 
 LLVMMemoryBufferRef buffer_of(const std::string& object) {

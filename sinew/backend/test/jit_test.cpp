@@ -2,11 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "sinew/base/error.h"
 #include "sinew/program/dag/evaluate.h"
@@ -179,16 +184,57 @@ TEST_P(Jit, KeepsCompiledCodeInItsCacheByContent) {
   EXPECT_FALSE(other.from_cache());
   EXPECT_EQ(first.code_bytes(), second.code_bytes());
   EXPECT_GT(first.code_bytes(), 0u);
-  // A damaged file is compiled anew.
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    std::filesystem::resize_file(entry.path(), 100);
-  }
-  const JitFunction third = jit_compile(sines_and_cosines(2), options);
-  EXPECT_FALSE(third.from_cache());
+  std::filesystem::remove_all(folder);
+}
+
+struct Damage {
+  const char* what;
+  void (*to)(std::string& file, const std::string& other);
+};
+
+// A cached file that is not what was written under its name is compiled anew, never run.
+TEST_P(Jit, RunsNothingThatIsDamagedInItsCache) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() /
+                                       ("sinew-jit-" + std::to_string(std::random_device()()));
+  const JitOptions options{GetParam(), (folder / "it").string()};
+  const JitOptions elsewhere{GetParam(), (folder / "other").string()};
+  const auto only_files = [](const std::string& in) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(in)) files.push_back(entry.path());
+    std::ranges::sort(files, {}, [](const auto& file) { return std::filesystem::file_size(file); });
+    return files;
+  };
+  const auto text_of = [](const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  const Damage damages[] = {
+      {"cut to a hundred bytes", [](std::string& file, const std::string&) { file.resize(100); }},
+      {"without its last byte", [](std::string& file, const std::string&) { file.pop_back(); }},
+      {"empty", [](std::string& file, const std::string&) { file.clear(); }},
+      {"of zeros", [](std::string& file, const std::string&) { file.assign(file.size(), 0); }},
+      {"one bit of code turned", [](std::string& file, const std::string&) { file[200] ^= 4; }},
+      {"another program's", [](std::string& file, const std::string& other) { file = other; }},
+  };
   const double in[] = {0.3, 0.4};
   double out[4];
-  third(in, out);
-  EXPECT_DOUBLE_EQ(out[0], std::sin(0.3));
+  jit_compile(sines_and_cosines(3), elsewhere);
+  jit_compile(sines_and_cosines(2), options);
+  const auto others = only_files(elsewhere.cache_folder);
+  for (const Damage& damage : damages) {
+    const auto files = only_files(options.cache_folder);
+    ASSERT_EQ(files.size(), others.size());
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      std::string text = text_of(files[i]);
+      damage.to(text, text_of(others[i]));
+      std::ofstream(files[i], std::ios::binary) << text;
+    }
+    const JitFunction again = jit_compile(sines_and_cosines(2), options);
+    EXPECT_FALSE(again.from_cache()) << damage.what;
+    again(in, out);
+    EXPECT_DOUBLE_EQ(out[0], std::sin(0.3)) << damage.what;
+    EXPECT_TRUE(jit_compile(sines_and_cosines(2), options).from_cache()) << damage.what;
+  }
   std::filesystem::remove_all(folder);
 }
 
