@@ -165,6 +165,7 @@ class OrderedAllocator : public llvm::MachineFunctionPass, private llvm::LiveRan
       }
       const LiveInterval& interval = intervals_->getInterval(reg);
       wait(interval);
+      if (interval.empty()) continue;  // what nothing has defined may be read
       File& file = files[*target_->regunits(order(interval).front()).begin()];
       set_sizes(file, order(interval));
       file.lifetimes.push_back(
