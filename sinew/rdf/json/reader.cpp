@@ -60,7 +60,7 @@ class Reader {
         line_start_ = next_ + 1;
       }
     }
-    fail(found() + " is not valid UTF-8", "the file encoded as UTF-8");
+    fail(found() + " is not valid UTF-8", "save the file as UTF-8");
   }
 
   // What stands at the cursor, for messages.
