@@ -9,6 +9,7 @@
 #include "sinew/backend/c_flat_zeros.h"
 #include "sinew/backend/numbers.h"
 #include "sinew/program/dag/evaluate.h"
+#include "sinew/program/limbs/limb_signs.h"
 
 namespace sinew::backend {
 
@@ -219,14 +220,8 @@ std::string LimbEmitter::input(const Node& node) {
 // The name of a vector of an earlier region that holds exactly these numbers.
 std::optional<std::string> LimbEmitter::same_vector(const Sources& sources) {
   const LimbSource& first = sources[0];
-  if (first.kind != LimbSource::Kind::kRegion) return std::nullopt;
+  if (!program::is_whole_vector(program_, sources)) return std::nullopt;
   const LimbRegion& from = program_.regions[first.region];
-  if (from.lanes != region().lanes) return std::nullopt;
-  for (std::uint32_t lane = 0; lane < sources.size(); ++lane) {
-    LimbSource expected = first;
-    expected.lane = lane;
-    if (!(sources[lane] == expected)) return std::nullopt;
-  }
   const Ref ref = from.computation.results[first.index];
   if (program::arity(from.computation.dag.node(ref).op) == 0) return std::nullopt;
   return (ref.negative() != first.negative ? "-" : "") + name_of(first.region, ref.node());

@@ -11,6 +11,7 @@
 #include "sinew/backend/jit/ir.h"
 #include "sinew/backend/jit/memory.h"
 #include "sinew/backend/jit/sample_steps.h"
+#include "sinew/program/limbs/limb_signs.h"
 
 namespace sinew::backend {
 namespace {
@@ -168,9 +169,28 @@ class SampleEmitter {
     const std::uint32_t slot = plan_.slot[steps_->value(region, node)];
     if (slot != kNoSlot) memory_->keep(value, slot);
     const auto results = results_of_[region].find(node);
-    if (results == results_of_[region].end()) return;
-    for (const std::uint32_t i : results->second)
-      memory_->write_result(number(program_.results[i]), i);
+    if (results != results_of_[region].end()) write_results(value, results->second);
+  }
+
+  // Of a node that has just been computed. A vector of which several lanes are wanted negative is
+  // negated once.
+  void write_results(LLVMValueRef value, const std::vector<std::uint32_t>& results) {
+    const auto is_negative = [&](std::uint32_t i) {
+      const LimbSource& source = program_.results[i];
+      return source.negative !=
+             program_.regions[source.region].computation.results[source.index].negative();
+    };
+    const bool is_vector = LLVMGetTypeKind(LLVMTypeOf(value)) == LLVMVectorTypeKind;
+    const bool turns = is_vector && std::count_if(results.begin(), results.end(), is_negative) > 1;
+    const LLVMValueRef turned = turns ? LLVMBuildFNeg(place_.builder, value, "") : nullptr;
+    for (const std::uint32_t i : results) {
+      const LimbSource& source = program_.results[i];
+      memory_->write_result(
+          turned != nullptr && is_negative(i)
+              ? LLVMBuildExtractElement(place_.builder, turned, integer(source.lane), "")
+              : number(source),
+          i);
+    }
   }
 
   // What a node of a region is in memory; null: nothing.
@@ -257,7 +277,7 @@ class SampleEmitter {
     const std::vector<LimbSource>& sources = program_.regions[region].inputs[input];
     const unsigned width = program::vector_width(program_.regions[region].lanes);
     if (width == 1) return number(sources[0]);
-    if (is_whole_vector(sources)) {
+    if (program::is_whole_vector(program_, sources)) {
       const Ref result = program_.regions[sources[0].region].computation.results[sources[0].index];
       const LLVMValueRef value = emitters_[sources[0].region].value(result.node());
       return sources[0].negative != result.negative() ? LLVMBuildFNeg(place_.builder, value, "")
@@ -273,19 +293,6 @@ class SampleEmitter {
       vector = LLVMBuildInsertElement(place_.builder, vector, value, integer(lane), "");
     }
     return vector;
-  }
-
-  // Whether these are the lanes of one result, in their order.
-  bool is_whole_vector(const std::vector<LimbSource>& sources) const {
-    const LimbSource& first = sources[0];
-    if (first.kind != LimbSource::Kind::kRegion) return false;
-    if (program_.regions[first.region].lanes != sources.size()) return false;
-    for (std::uint32_t lane = 0; lane < sources.size(); ++lane) {
-      LimbSource expected = first;
-      expected.lane = lane;
-      if (!(sources[lane] == expected)) return false;
-    }
-    return true;
   }
 
   const LimbProgram& program_;
