@@ -127,12 +127,13 @@ int run_generate(Arguments arguments) {
       write_files(folder, code, !partial.empty());
     return kOk;
   }
-  const program::Program program = program_of(*models, models_options, query, name);
+  program::Program program = program_of(*models, models_options, query, name);
   options.name = program.name;
   options.source = describe(models_options, query);
+  const bool updates = !program::with_held(program, partial).empty();
   const backend::GeneratedCode code =
-      with_places(*models, [&] { return backend::generate_c(program, options); });
-  write_files(folder, code, !program::with_held(program, partial).empty());
+      with_places(*models, [&] { return backend::generate_c(std::move(program), options); });
+  write_files(folder, code, updates);
   return kOk;
 }
 

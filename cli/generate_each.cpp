@@ -22,9 +22,11 @@ std::vector<backend::GeneratedCode> generate_each(Models& models, const ModelOpt
       backend::COptions own = options;
       own.name = function_name(prefix, question);
       own.source = describe(files, question);
-      pending.push_back(workers.add([program = program_of(models, files, question, own.name), own] {
-        return backend::generate_c(program, own);
-      }));
+      own.one_thread = threads == 1;
+      pending.push_back(
+          workers.add([program = program_of(models, files, question, own.name), own]() mutable {
+            return backend::generate_c(std::move(program), own);
+          }));
     } catch (const Error&) {
       refused = std::current_exception();
       break;

@@ -1,12 +1,11 @@
 // sinew: from linked models of a robot and its world to real-time software.
-#include <malloc.h>
-
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <string_view>
 
 #include "command.h"
+#include "kept_memory.h"
 #include "sinew/base/error.h"
 
 namespace {
@@ -41,9 +40,6 @@ constexpr Command kCommands[] = {
      "a scene: what is where, who says so, and how fresh it is", run_world},
 };
 
-constexpr int kKeptBytes = 256 << 20;
-constexpr int kBytesAtOnce = 16 << 20;
-
 void print_help(std::ostream& out) {
   out << "sinew: linked models of a robot and its world in, real-time software out\n\n"
          "usage: sinew COMMAND …    (sinew COMMAND --help tells more)\n\n";
@@ -58,11 +54,7 @@ void print_help(std::ostream& out) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Most commands live for some tens of milliseconds, of which a twentieth went into giving memory
-  // back and asking for it again.
-  mallopt(M_MMAP_THRESHOLD, kKeptBytes);
-  mallopt(M_TRIM_THRESHOLD, kKeptBytes);
-  mallopt(M_TOP_PAD, kBytesAtOnce);
+  keep_memory();
   const std::string_view name = argc > 1 ? argv[1] : "";
   if (name == "--help" || name == "-h" || name == "help") {
     print_help(std::cout);

@@ -52,10 +52,13 @@ FlatBody flat_body(const program::Computation& computation, const FlatLayout& la
 // A number of the scalar type as C source. Throws Error where a float cannot hold it.
 std::string scalar_number(double value, Scalar scalar);
 
-// The layout of a program's evaluation, and that of its update (all results go to `held`).
+// The layout of a program's evaluation, and that of its update (all results go to `held`), with the
+// identifiers of its variables.
 FlatLayout evaluation_layout(const program::Program& program, const program::Interface& interface,
+                             const std::vector<std::string>& identifiers,
                              const program::Computation& evaluation);
 FlatLayout update_layout(const program::Program& program, const program::Interface& interface,
+                         const std::vector<std::string>& identifiers,
                          const program::Computation& update);
 
 }  // namespace sinew::backend

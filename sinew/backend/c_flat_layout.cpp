@@ -6,10 +6,10 @@ namespace sinew::backend {
 namespace {
 
 // Inputs, then states: as trace.h numbers them.
-FlatLayout caller_layout(const program::Program& program, const program::Interface& interface) {
+FlatLayout caller_layout(const program::Program& program, const program::Interface& interface,
+                         const std::vector<std::string>& identifiers) {
   FlatLayout layout;
   layout.in_size = interface.in_size;
-  const std::vector<std::string> identifiers = variable_identifiers(program);
   const auto add = [&](const std::vector<program::Slot>& slots, const char* array) {
     for (const program::Slot& slot : slots) {
       const std::uint32_t size = program.variables[slot.variable].size;
@@ -29,8 +29,9 @@ FlatLayout caller_layout(const program::Program& program, const program::Interfa
 }  // namespace
 
 FlatLayout evaluation_layout(const program::Program& program, const program::Interface& interface,
+                             const std::vector<std::string>& identifiers,
                              const program::Computation& evaluation) {
-  FlatLayout layout = caller_layout(program, interface);
+  FlatLayout layout = caller_layout(program, interface, identifiers);
   for (auto k = static_cast<std::uint32_t>(layout.inputs.size()); k < evaluation.inputs; ++k) {
     const std::uint32_t index = k - interface.in_size - interface.state_size;
     layout.inputs.push_back({"held", index});
@@ -42,8 +43,9 @@ FlatLayout evaluation_layout(const program::Program& program, const program::Int
 }
 
 FlatLayout update_layout(const program::Program& program, const program::Interface& interface,
+                         const std::vector<std::string>& identifiers,
                          const program::Computation& update) {
-  FlatLayout layout = caller_layout(program, interface);
+  FlatLayout layout = caller_layout(program, interface, identifiers);
   for (std::uint32_t k = 0; k < update.results.size(); ++k) layout.results.push_back({"held", k});
   return layout;
 }

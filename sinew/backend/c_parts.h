@@ -51,17 +51,19 @@ RenderedSource render_with_blocks(
 
 // The name, sizes, banner and lists of inputs, outputs and states.
 Fields common_fields(const program::ScalarProgram& scalar, const program::Interface& interface,
-                     const COptions& options, const GeneratedCode& counts);
+                     const std::vector<std::string>& identifiers, const COptions& options,
+                     const GeneratedCode& counts);
 
 // A distinct C identifier for each variable of the program.
 std::vector<std::string> variable_identifiers(const program::Program& program);
 
 // `limbs`: null where they are computed one by one.
 RenderedSource flat_source(const program::ScalarProgram& scalar,
-                           const program::Interface& interface, const Fields& common,
+                           const program::Interface& interface,
+                           const std::vector<std::string>& identifiers, const Fields& common,
                            const COptions& options, const program::LimbProgram* limbs);
 RenderedSource readable_source(const program::Program& program, const program::Interface& interface,
-                               const Fields& common);
+                               const std::vector<std::string>& identifiers, const Fields& common);
 
 // NAME.json: names, units, frames and offsets; operations; which line of NAME.c comes from which
 // closure, step and model element (docs/generated-code.md).

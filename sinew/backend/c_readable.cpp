@@ -27,12 +27,11 @@ std::string describe(const program::Variable& v) {
 }  // namespace
 
 RenderedSource readable_source(const program::Program& program, const program::Interface& interface,
-                               const Fields& common) {
-  const std::vector<std::string> names = variable_identifiers(program);
+                               const std::vector<std::string>& identifiers, const Fields& common) {
   const auto item = [&](std::uint32_t variable) {
     const program::Variable& v = program.variables[variable];
     Fields fields;
-    fields.text("identifier", names[variable]);
+    fields.text("identifier", identifiers[variable]);
     fields.number("size", v.size);
     fields.text("comment", describe(v));
     return fields;
@@ -87,7 +86,7 @@ RenderedSource readable_source(const program::Program& program, const program::I
       call += (i == 0         ? ""
                : last_of_many ? fmt::format("}}, {}, ", count - 1)
                               : ", ") +
-              names[closure.arguments[i]];
+              identifiers[closure.arguments[i]];
     }
     body.add(call + ");", index);
   }

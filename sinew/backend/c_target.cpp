@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 #include <unordered_set>
+#include <utility>
 
 #include "sinew/backend/c_parts.h"
 #include "sinew/backend/numbers.h"
@@ -86,20 +88,20 @@ std::string banner(const COptions& options, const GeneratedCode& counts) {
   return text;
 }
 
-// Very long functions are divided into parts instead.
-std::optional<program::LimbProgram> limbs_of(const program::ScalarProgram& scalar,
-                                             const program::OperationCount& operations,
-                                             const COptions& options) {
-  if (!options.limbs || options.language == Language::kCuda || !options.partial.empty() ||
-      !scalar.program.derivatives.empty()) {
-    return std::nullopt;
-  }
-  auto limbs = program::limb_program(scalar.program, operations, options.passes);
-  if (!limbs) return std::nullopt;
-  const program::OperationCount n = limbs->operations();
-  if (n.add + n.multiply > 2 * options.maximum_statements) return std::nullopt;
-  return limbs;
+bool may_have_limbs(const program::Program& program, const COptions& options) {
+  return options.style == Style::kFlat && options.limbs && options.language != Language::kCuda &&
+         options.partial.empty() && program.derivatives.empty();
 }
+
+// Very long functions are divided into parts instead.
+bool are_worth_it(const program::LimbProgram& limbs, const program::OperationCount& operations,
+                  const COptions& options) {
+  const program::OperationCount n = limbs.operations();
+  return program::pays(limbs, operations) && n.add + n.multiply <= 2 * options.maximum_statements;
+}
+
+// Programs of fewer closures are optimised in less time than it takes to start a thread.
+constexpr std::size_t kLeastClosuresOfAThread = 300;
 
 }  // namespace
 
@@ -117,6 +119,13 @@ RenderedSource render_with_blocks(
   for (const auto& [name, block] : blocks) fields.text(name, "@" + name + "@");
   const std::string text = render(path, fields);
   RenderedSource result;
+  std::size_t size = text.size(), origins = 0;
+  for (const auto& [name, block] : blocks) {
+    size += block->text.size();
+    origins += block->origins.size();
+  }
+  result.text.reserve(size);
+  result.origins.reserve(origins);
   std::size_t done = 0;
   std::size_t lines = 0;
   for (const auto& [name, block] : blocks) {
@@ -146,7 +155,8 @@ RenderedSource render_with_blocks(
 }
 
 Fields common_fields(const program::ScalarProgram& scalar, const program::Interface& interface,
-                     const COptions& options, const GeneratedCode& counts) {
+                     const std::vector<std::string>& identifiers, const COptions& options,
+                     const GeneratedCode& counts) {
   const program::Program& program = scalar.program;
   Fields fields;
   fields.text("name", options.name);
@@ -175,7 +185,6 @@ Fields common_fields(const program::ScalarProgram& scalar, const program::Interf
   fields.section("has_inputs", interface.in_size > 0);
   fields.section("has_outputs", interface.out_size > 0);
   fields.section("stateful", interface.state_size > 0);
-  const std::vector<std::string> identifiers = variable_identifiers(program);
   fields.list("inputs", slots(program, identifiers, interface.inputs));
   fields.list("outputs", slots(program, identifiers, interface.outputs));
   fields.list("states", slots(program, identifiers, interface.states));
@@ -200,7 +209,7 @@ std::vector<std::string> variable_identifiers(const program::Program& program) {
   return names;
 }
 
-GeneratedCode generate_c(const program::Program& program, const COptions& asked) {
+GeneratedCode generate_c(program::Program program, const COptions& asked) {
   COptions options = asked;
   options.partial = program::with_held(program, asked.partial);
   if (!is_c_function_name(options.name)) {
@@ -246,8 +255,15 @@ GeneratedCode generate_c(const program::Program& program, const COptions& asked)
                         Severity::kError,
                         {}});
   }
-  const program::ScalarProgram scalar =
-      program::scalar_program(program, options.passes, options.partial);
+  program::ScalarProgram scalar = program::traced_program(std::move(program), options.partial);
+  // Limbs have passes of their own, beside those of the whole. A trace has one after the other.
+  const bool beside = scalar.program.closures.size() >= kLeastClosuresOfAThread &&
+                      !options.passes.trace && !options.one_thread;
+  std::future<std::optional<program::LimbProgram>> found;
+  if (may_have_limbs(scalar.program, options))
+    found = std::async(beside ? std::launch::async : std::launch::deferred,
+                       [&] { return program::side_by_side(scalar.program, options.passes); });
+  program::optimise(scalar, options.passes);
   const program::Interface interface = program::interface_of(scalar.program);
   const bool cuda = options.language == Language::kCuda;
 
@@ -255,17 +271,19 @@ GeneratedCode generate_c(const program::Program& program, const COptions& asked)
   code.operations = program::count_operations(scalar.computation);
   code.update = program::count_operations(scalar.update);
   code.has_update = !scalar.update.results.empty();
-  const std::optional<program::LimbProgram> limbs =
-      options.style == Style::kFlat ? limbs_of(scalar, code.operations, options) : std::nullopt;
+  std::optional<program::LimbProgram> limbs;
+  if (found.valid()) limbs = found.get();
+  if (limbs && !are_worth_it(*limbs, code.operations, options)) limbs.reset();
   if (limbs) code.with_limbs = limbs->operations();
-  const Fields common = common_fields(scalar, interface, options, code);
-  const RenderedSource source =
+  const std::vector<std::string> identifiers = variable_identifiers(scalar.program);
+  const Fields common = common_fields(scalar, interface, identifiers, options, code);
+  RenderedSource source =
       options.style == Style::kFlat
-          ? flat_source(scalar, interface, common, options, limbs ? &*limbs : nullptr)
-          : readable_source(scalar.program, interface, common);
+          ? flat_source(scalar, interface, identifiers, common, options, limbs ? &*limbs : nullptr)
+          : readable_source(scalar.program, interface, identifiers, common);
   code.files.push_back({options.name + ".h",
                         render(cuda ? "c/header.cuda.mustache" : "c/header.h.mustache", common)});
-  code.files.push_back({options.name + source_extension(options.language), source.text});
+  code.files.push_back({options.name + source_extension(options.language), std::move(source.text)});
   code.files.push_back(
       {options.name + ".json", sidecar(scalar, interface, options, code, source.origins)});
   if (options.language == Language::kCpp) {

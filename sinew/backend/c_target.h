@@ -51,6 +51,7 @@ struct COptions {
   // of flat C.
   bool limbs = true;
   std::size_t maximum_statements = 4000;  // of one flat function; more become several functions
+  bool one_thread = false;  // limbs of large programs are otherwise optimised on a thread beside
 };
 
 struct SourceFile {
@@ -69,6 +70,6 @@ struct GeneratedCode {
 
 // Throws Error if the program is not valid, the name cannot name a C function, a name in `partial`
 // fits nothing, a constant does not fit into the scalar, or the style cannot do what is asked.
-GeneratedCode generate_c(const program::Program& program, const COptions& options);
+GeneratedCode generate_c(program::Program program, const COptions& options);
 
 }  // namespace sinew::backend

@@ -1,5 +1,6 @@
 #include "sinew/program/dead_closures.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "sinew/program/kernels.h"
@@ -28,11 +29,14 @@ Program without_dead_closures(Program program) {
   result.name = std::move(program.name);
   result.iri = std::move(program.iri);
   std::vector<std::uint32_t> moved(program.variables.size(), 0);
+  result.variables.reserve(static_cast<std::size_t>(std::ranges::count(needed, true)));
   for (std::size_t i = 0; i < needed.size(); ++i) {
     if (!needed[i]) continue;
     moved[i] = static_cast<std::uint32_t>(result.variables.size());
     result.variables.push_back(std::move(program.variables[i]));
   }
+  result.schedule.reserve(static_cast<std::size_t>(std::ranges::count(live, true)));
+  result.closures.reserve(result.schedule.capacity());
   for (std::size_t s = 0; s < live.size(); ++s) {
     if (!live[s]) continue;
     Closure closure = std::move(program.closures[program.schedule[s]]);

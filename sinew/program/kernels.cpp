@@ -1,6 +1,8 @@
 #include "sinew/program/kernels.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <unordered_map>
 #include <vector>
 
@@ -284,6 +286,24 @@ std::vector<Kernel> make_kernels() {
 
 }  // namespace
 
+namespace {
+
+// A program asks for the rows of thousands of closures. Names differ in their lengths, or in the
+// letters at their ends.
+struct HashOfName {
+  std::size_t operator()(std::string_view name) const {
+    if (name.empty()) return 0;
+    std::uint64_t first = 0, last = 0;
+    const std::size_t n = std::min(name.size(), sizeof first);
+    std::memcpy(&first, name.data(), n);
+    std::memcpy(&last, name.data() + name.size() - n, n);
+    const std::uint64_t h = (first ^ std::rotl(last, 23) ^ name.size()) * 0x9e3779b97f4a7c15U;
+    return h ^ h >> 32U;
+  }
+};
+
+}  // namespace
+
 std::span<const Kernel> kernels() {
   static const std::vector<Kernel> rows = make_kernels();
   return rows;
@@ -291,7 +311,7 @@ std::span<const Kernel> kernels() {
 
 const Kernel* find_kernel(std::string_view operation) {
   static const auto by_name = [] {
-    std::unordered_map<std::string_view, const Kernel*> rows;
+    std::unordered_map<std::string_view, const Kernel*, HashOfName> rows;
     for (const Kernel& kernel : kernels()) rows.emplace(kernel.operation, &kernel);
     return rows;
   }();

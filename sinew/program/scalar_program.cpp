@@ -1,5 +1,7 @@
 #include "sinew/program/scalar_program.h"
 
+#include <utility>
+
 #include "sinew/program/dead_closures.h"
 #include "sinew/program/finite.h"
 #include "sinew/program/trace.h"
@@ -7,23 +9,34 @@
 
 namespace sinew::program {
 
-ScalarProgram scalar_program(const Program& program, const OptimiseOptions& options,
-                             const PartialOptions& partial) {
+ScalarProgram traced_program(Program program, const PartialOptions& partial) {
   require_valid(program);
   ScalarProgram result;
-  result.program = without_dead_closures(program);
+  result.program = without_dead_closures(std::move(program));
   result.snapped = snap_constants(result.program);
   if (partial.empty()) {
-    Computation traced = trace(result.program);
-    require_finite(traced, result.program);
-    result.computation = optimise(std::move(traced), options);
+    result.computation = trace(result.program);
+    require_finite(result.computation, result.program);
     return result;
   }
   Hoisted parts = trace_in_parts(result.program, partial);
   require_finite(parts.evaluate, result.program);
   require_finite(parts.update, result.program);
-  result.computation = optimise(std::move(parts.evaluate), options);
-  result.update = optimise(std::move(parts.update), options);
+  result.computation = std::move(parts.evaluate);
+  result.update = std::move(parts.update);
+  return result;
+}
+
+void optimise(ScalarProgram& program, const OptimiseOptions& options) {
+  program.computation = optimise(std::move(program.computation), options);
+  if (program.update.dag.size() > 0)
+    program.update = optimise(std::move(program.update), options);
+}
+
+ScalarProgram scalar_program(Program program, const OptimiseOptions& options,
+                             const PartialOptions& partial) {
+  ScalarProgram result = traced_program(std::move(program), partial);
+  optimise(result, options);
   return result;
 }
 

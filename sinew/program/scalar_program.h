@@ -16,9 +16,14 @@ struct ScalarProgram {
   Computation update;
 };
 
-// Removes dead closures, snaps constants, traces and optimises. Throws Error if the program is not
-// valid, divides by a constant zero, or a name in `partial` fits nothing.
-ScalarProgram scalar_program(const Program& program, const OptimiseOptions& options = {},
+// Removes dead closures, snaps constants and traces. Throws Error if the program is not valid,
+// divides by a constant zero, or a name in `partial` fits nothing.
+ScalarProgram traced_program(Program program, const PartialOptions& partial = {});
+// Runs the passes over it.
+void optimise(ScalarProgram& program, const OptimiseOptions& options = {});
+
+// Both.
+ScalarProgram scalar_program(Program program, const OptimiseOptions& options = {},
                              const PartialOptions& partial = {});
 
 }  // namespace sinew::program

@@ -1,9 +1,10 @@
 #include "sinew/program/limbs/limb_program.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
-#include <cstring>
 #include <map>
+#include <unordered_map>
 
 #include "sinew/program/interface.h"
 #include "sinew/program/kernels.h"
@@ -174,20 +175,47 @@ class Recorder {
       if (source.kind != LimbSource::Kind::kCaller) return negated(source);
     }
     auto& results = region.computation.results;
-    const auto [at, is_new] = result_index_[home.region].try_emplace(
-        ref.node(), static_cast<std::uint32_t>(results.size()));
-    if (is_new) results.push_back(ref.magnitude());
+    std::vector<std::uint32_t>& index = result_index_[home.region];
+    if (index.size() <= ref.node()) index.resize(dag.size(), kTrunk);
+    std::uint32_t& at = index[ref.node()];
+    if (at == kTrunk) {
+      at = static_cast<std::uint32_t>(results.size());
+      results.push_back(ref.magnitude());
+    }
     LimbSource source;
     source.kind = LimbSource::Kind::kRegion;
-    source.index = at->second;
+    source.index = at;
     source.region = home.region;
     source.lane = home.lane;
     source.negative = ref.negative();
     return source;
   }
 
-  // The number, one source for each lane, in a region's graph.
-  Traced in_region(std::uint32_t region, Sources sources) {
+  // Bit for bit: 0 and -0 are two constants.
+  static bool same(const Sources& a, const Sources& b) {
+    return std::equal(
+        a.begin(), a.end(), b.begin(), b.end(), [](const LimbSource& x, const LimbSource& y) {
+          return x == y &&
+                 std::bit_cast<std::uint64_t>(x.value) == std::bit_cast<std::uint64_t>(y.value);
+        });
+  }
+  static std::uint64_t hash(const Sources& sources) {
+    std::uint64_t h = 0;
+    const auto mix = [&](std::uint64_t part) {
+      h = (h ^ part) * 0x9e3779b97f4a7c15U;  // 2^64 / golden ratio
+      h ^= h >> 29U;
+    };
+    for (const LimbSource& s : sources) {
+      mix(static_cast<std::uint64_t>(s.kind) << 1U | (s.negative ? 1U : 0U));
+      mix(std::uint64_t{s.index} << 32U | s.region);
+      mix(s.lane);
+      mix(std::bit_cast<std::uint64_t>(s.value));
+    }
+    return h;
+  }
+
+  // The number, one source for each lane, in a region's graph. Changes their signs.
+  Traced in_region(std::uint32_t region, Sources& sources) {
     Dag& dag = result_.regions[region].computation.dag;
     const auto equal = [&](const LimbSource& source) { return source == sources[0]; };
     const bool all_constant = std::all_of(sources.begin(), sources.end(), [](const LimbSource& s) {
@@ -206,20 +234,18 @@ class Recorder {
     if (turn) {
       for (LimbSource& source : sources) source = negated(source);
     }
-    std::vector<std::uint64_t> key;
-    for (const LimbSource& s : sources) {
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &s.value, sizeof bits);
-      key.insert(key.end(),
-                 {static_cast<std::uint64_t>(s.kind),
-                  static_cast<std::uint64_t>(s.index) << 32U | s.region,
-                  static_cast<std::uint64_t>(s.lane) << 1U | (s.negative ? 1U : 0U), bits});
+    std::vector<std::vector<LimbSource>>& inputs = result_.regions[region].inputs;
+    std::uint32_t input = static_cast<std::uint32_t>(inputs.size());
+    const std::uint64_t key = hash(sources);
+    const auto [from, to] = input_index_[region].equal_range(key);
+    for (auto at = from; at != to; ++at) {
+      if (same(inputs[at->second], sources)) input = at->second;
     }
-    LimbRegion& in = result_.regions[region];
-    const auto [at, is_new] = input_index_[region].try_emplace(
-        std::move(key), static_cast<std::uint32_t>(in.inputs.size()));
-    if (is_new) in.inputs.push_back(std::move(sources));
-    const Ref ref = dag.input(at->second);
+    if (input == inputs.size()) {
+      inputs.push_back(sources);
+      input_index_[region].emplace(key, input);
+    }
+    const Ref ref = dag.input(input);
     return Traced(dag, turn ? -ref : ref);
   }
 
@@ -228,23 +254,23 @@ class Recorder {
     const Closure& closure = program_.closures[unit.closures[0]];
     const Kernel& kernel = *find_kernel(closure.operation);
     const std::size_t count = closure.arguments.size();
-    std::vector<std::vector<Traced>> values(count);
-    std::vector<std::uint32_t> sizes;
+    if (values_.size() < count) values_.resize(count);
+    sizes_.clear();
+    arguments_.clear();
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t size = program_.variables[closure.arguments[i]].size;
-      sizes.push_back(size);
-      values[i].resize(size);
+      sizes_.push_back(size);
+      values_[i].assign(size, Traced());
+      arguments_.push_back(values_[i].data());
       if (kernel.port(i, count).output) continue;
-      for (std::uint32_t k = 0; k < size; ++k) values[i][k] = read(unit, region, i, k);
+      for (std::uint32_t k = 0; k < size; ++k) values_[i][k] = read(unit, region, i, k);
     }
-    std::vector<Traced*> arguments;
-    for (auto& value : values) arguments.push_back(value.data());
     Dag& dag = result_.regions[region].computation.dag;
     dag.set_origin(unit.closures[0]);
     if (kernel.many()) {
-      kernel.trace_many(arguments.data(), sizes);
+      kernel.trace_many(arguments_.data(), sizes_);
     } else {
-      kernel.trace(arguments.data());
+      kernel.trace(arguments_.data());
     }
     for (std::size_t i = 0; i < count; ++i) {
       if (!kernel.port(i, count).output) continue;
@@ -253,7 +279,7 @@ class Recorder {
         home.region = region;
         home.lane = lane;
         home.refs.clear();
-        for (const Traced& number : values[i]) home.refs.push_back(number.in(dag));
+        for (const Traced& number : values_[i]) home.refs.push_back(number.in(dag));
       }
     }
   }
@@ -261,7 +287,6 @@ class Recorder {
   Traced read(const Unit& unit, std::uint32_t region, std::size_t argument, std::uint32_t k) {
     // In its own region, lane by lane: the number itself.
     bool own = true;
-    Sources sources;
     for (std::uint32_t lane = 0; lane < unit.closures.size(); ++lane) {
       const std::uint32_t variable = program_.closures[unit.closures[lane]].arguments[argument];
       const Home& home = home_[variable];
@@ -271,12 +296,13 @@ class Recorder {
       Dag& dag = result_.regions[region].computation.dag;
       return Traced(dag, home_[program_.closures[unit.closures[0]].arguments[argument]].refs[k]);
     }
+    sources_.clear();
     for (const std::uint32_t closure : unit.closures) {
       const std::uint32_t variable = program_.closures[closure].arguments[argument];
       if (home_[variable].region == region) circular_ = true;
-      sources.push_back(source_of(variable, k));
+      sources_.push_back(source_of(variable, k));
     }
-    return in_region(region, std::move(sources));
+    return in_region(region, sources_);
   }
 
  public:
@@ -290,9 +316,14 @@ class Recorder {
   std::vector<Home> home_;  // by variable
   LimbProgram result_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> region_index_;
-  std::vector<std::map<std::vector<std::uint64_t>, std::uint32_t>> input_index_;
-  std::vector<std::map<std::uint32_t, std::uint32_t>> result_index_;  // by node
+  std::vector<std::unordered_multimap<std::uint64_t, std::uint32_t>> input_index_;  // by hash
+  std::vector<std::vector<std::uint32_t>> result_index_;  // by node; kTrunk: no result yet
   bool circular_ = false;
+  // Of the unit, or the number, that is being recorded.
+  std::vector<std::vector<Traced>> values_;
+  std::vector<std::uint32_t> sizes_;
+  std::vector<Traced*> arguments_;
+  Sources sources_;
 };
 
 // Optimises every region, the last one first, without what nobody needs.
@@ -374,8 +405,7 @@ OperationCount LimbProgram::operations() const {
   return sum;
 }
 
-std::optional<LimbProgram> limb_program(const Program& program, const OperationCount& scalar,
-                                        const OptimiseOptions& options) {
+std::optional<LimbProgram> side_by_side(const Program& program, const OptimiseOptions& options) {
   // A state has two values in one evaluation, before and after it is written: order matters.
   if (interface_of(program).state_size > 0) return std::nullopt;
   Limbs limbs = find_limbs(program);
@@ -394,9 +424,18 @@ std::optional<LimbProgram> limb_program(const Program& program, const OperationC
   LimbProgram result = recorder.run();
   if (recorder.circular()) return std::nullopt;
   optimise_regions(result, options);
-  if (weight(result.operations()) > (1 - kLeastSaving) * weight(scalar)) return std::nullopt;
   choose_signs_of(result, options);
   return result;
+}
+
+bool pays(const LimbProgram& limbs, const OperationCount& scalar) {
+  return weight(limbs.operations()) <= (1 - kLeastSaving) * weight(scalar);
+}
+
+std::optional<LimbProgram> limb_program(const Program& program, const OperationCount& scalar,
+                                        const OptimiseOptions& options) {
+  std::optional<LimbProgram> limbs = side_by_side(program, options);
+  return limbs && pays(*limbs, scalar) ? std::move(limbs) : std::nullopt;
 }
 
 std::vector<double> evaluate(const LimbProgram& program, const std::vector<double>& inputs) {

@@ -49,10 +49,16 @@ struct LimbProgram {
   OperationCount operations() const;
 };
 
-// Nothing where there are no limbs, or where they would not pay: vector operations have to save a
-// fifth of all operations (`scalar` is the count of the program as one computation). A
-// program with states has none. Preconditions: the program is valid, without derivatives. Inputs
-// and results are those of trace.h.
+// Nothing where there are no limbs; whether they pay is not asked. A program with states has none.
+// Preconditions: the program is valid, without derivatives. Inputs and results are those of
+// trace.h.
+std::optional<LimbProgram> side_by_side(const Program& program,
+                                        const OptimiseOptions& options = {});
+// Whether vector operations save a fifth of all operations; `scalar` is the count of the program as
+// one computation.
+bool pays(const LimbProgram& limbs, const OperationCount& scalar);
+
+// Nothing where there are no limbs, or where they would not pay.
 std::optional<LimbProgram> limb_program(const Program& program, const OperationCount& scalar,
                                         const OptimiseOptions& options = {});
 
