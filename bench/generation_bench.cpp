@@ -80,6 +80,7 @@ void run_once(const cli::ModelOptions& files, const cli::QueryOptions& query, Ti
   watch.stage(kLimbs);
   backend::COptions options;
   options.name = query.solver;
+  options.one_thread = true;
   // It does the passes and limbs again, whose times are taken off.
   static_cast<void>(backend::generate_c(program, options));
   watch.stage(kWrite, times.ms[kPasses] + times.ms[kLimbs]);
