@@ -232,7 +232,7 @@ std::vector<std::pair<Id, Id>> Reference::path(const syntax::Path& path, Id from
       std::vector<std::pair<Id, Id>> longer;
       for (const auto& [a, b] : result) {
         for (const auto& [c, d] : next) {
-          if (b == c) longer.push_back({a, d});
+          if (b == c) longer.emplace_back(a, d);
         }
       }
       result = std::move(longer);
@@ -248,7 +248,7 @@ std::vector<std::pair<Id, Id>> Reference::path(const syntax::Path& path, Id from
   for (const Id start : starts) {
     if (from && start != from) continue;
     for (const Id end : walk(path, start, graph)) {
-      if (!to || end == to) result.push_back({start, end});
+      if (!to || end == to) result.emplace_back(start, end);
     }
   }
   return result;

@@ -34,7 +34,7 @@ graph::Id Table::id(std::string_view name) {
 std::string Table::name(graph::Id id) const {
   if (!id) return "-";
   if (store.terms().is_blank(id)) return "_";
-  const std::string text = store.terms().to_string(id);
+  std::string text = store.terms().to_string(id);
   if (text.starts_with("<http://e/")) return ":" + text.substr(10, text.size() - 11);
   const std::size_t type = text.rfind(kXsd);
   if (type == std::string::npos) return text;

@@ -112,8 +112,9 @@ TEST(Instants, GoThroughTheWholeCalendarAndBack) {
       const auto instant = parse_instant(day, Datatype::kDate);
       ASSERT_TRUE(instant) << day;
       EXPECT_EQ(to_string(*instant, Datatype::kDate), day);
-      const auto later = add(*instant, {0, Decimal::of(86'400 * 400)});
-      EXPECT_EQ(compare(*add(*later, {0, Decimal::of(-86'400 * 400)}), *instant), TimeOrder::kSame);
+      constexpr std::int64_t k400Days = std::int64_t{86'400} * 400;
+      const auto later = add(*instant, {0, Decimal::of(k400Days)});
+      EXPECT_EQ(compare(*add(*later, {0, Decimal::of(-k400Days)}), *instant), TimeOrder::kSame);
     }
   }
 }

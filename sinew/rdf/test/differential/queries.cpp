@@ -73,7 +73,7 @@ class QueryMaker {
       text += " *";
     } else {
       Scope chosen = some(where.scope);
-      if (random_.chance(10)) chosen.push_back("?unused");
+      if (random_.chance(10)) chosen.emplace_back("?unused");
       for (const std::string& variable : chosen) text += " " + variable;
       if (random_.chance(25)) text += fmt::format(" ({} AS ?computed)", expression(where.scope, 2));
     }
@@ -244,7 +244,7 @@ class QueryMaker {
   std::string node_variable(const Scope& scope) {
     Scope known;
     for (const char* variable : kNodeVariables) {
-      if (std::ranges::find(scope, variable) != scope.end()) known.push_back(variable);
+      if (std::ranges::find(scope, variable) != scope.end()) known.emplace_back(variable);
     }
     if (known.empty()) return random_.pick(kNodeVariables);
     return random_.chance(5) ? node() : random_.pick(known);
@@ -255,7 +255,7 @@ class QueryMaker {
   // within
   // (...)* and (...)+, where they do not matter, and to a few queries that show the difference.
   std::string path(int depth, bool counted = true) {
-    const std::string link = random_.pick(kLinks);
+    std::string link = random_.pick(kLinks);
     if (depth == 0) return link;
     const bool alternatives = any_path_ || !counted;
     switch (random_.below(9)) {

@@ -121,7 +121,7 @@ class Reader {
 
   void add(Id subject, Id predicate, Id object) { quads_.push_back({subject, predicate, object}); }
 
-  [[noreturn]] void fail(std::string what) {
+  [[noreturn]] void fail(const std::string& what) {
     throw Error(Problem{{base_, XML_GetCurrentLineNumber(parser_.get()), 0},
                         "",
                         "RDF/XML: " + what,
