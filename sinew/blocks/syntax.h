@@ -23,6 +23,7 @@
 // - fproto(name, context): setting, args: argument(position, direction, prototype)
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,7 +34,7 @@ namespace sinew::blocks {
 
 // How deep modules and raw braces may be nested, and how long a file may be.
 constexpr std::size_t kMaximumNesting = 32;
-constexpr std::size_t kMaximumFileSize = 16 * 1024 * 1024;
+constexpr std::size_t kMaximumFileSize = std::size_t{16} * 1024 * 1024;
 
 struct Text {
   std::string name;

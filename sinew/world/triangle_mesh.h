@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -57,7 +58,7 @@ bool encloses(const TriangleMesh& mesh, const Vector3& point);
 // The vertex for which `value` is largest. `most` bounds it for all that is in a box.
 template <typename Most, typename Value>
 Vector3 farthest_vertex(const TriangleMesh& mesh, const Most& most, const Value& value) {
-  double best = -INFINITY;
+  double best = -std::numeric_limits<double>::infinity();
   Vector3 found = mesh.vertices.front();
   const auto visit = [&](const auto& self, std::uint32_t index) -> void {
     const TriangleMesh::Node& node = mesh.tree[index];
