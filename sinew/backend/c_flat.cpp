@@ -47,7 +47,8 @@ RenderedSource flat_source(const program::ScalarProgram& scalar,
   fields.number("lanes_256", is_float ? 8 : 4);
   fields.number("lanes_512", is_float ? 16 : 8);
 
-  const FlatLayout layout = evaluation_layout(scalar.program, interface, identifiers, scalar.computation);
+  const FlatLayout layout =
+      evaluation_layout(scalar.program, interface, identifiers, scalar.computation);
   FlatOptions flat{name, FlatForm::kSample, options.scalar, "sample", options.maximum_statements};
   const auto body = [&](FlatForm form) {
     flat.form = form;
@@ -60,8 +61,9 @@ RenderedSource flat_source(const program::ScalarProgram& scalar,
     FlatOptions of_update = flat;
     of_update.of = "update";
     of_update.form = cuda ? FlatForm::kThread : FlatForm::kSample;
-    update = flat_body(scalar.update, update_layout(scalar.program, interface, identifiers, scalar.update),
-                       of_update);
+    update =
+        flat_body(scalar.update,
+                  update_layout(scalar.program, interface, identifiers, scalar.update), of_update);
   }
   const auto with_update = [&](Blocks blocks, std::size_t at) {
     if (!held) return blocks;

@@ -29,8 +29,7 @@ ScalarProgram traced_program(Program program, const PartialOptions& partial) {
 
 void optimise(ScalarProgram& program, const OptimiseOptions& options) {
   program.computation = optimise(std::move(program.computation), options);
-  if (program.update.dag.size() > 0)
-    program.update = optimise(std::move(program.update), options);
+  if (program.update.dag.size() > 0) program.update = optimise(std::move(program.update), options);
 }
 
 ScalarProgram scalar_program(Program program, const OptimiseOptions& options,
