@@ -2,9 +2,10 @@
 //
 //   Workers workers(Workers::as_many_as_the_machine_has());
 //   std::vector<std::future<Code>> codes;
-//   for (const Program& program : programs) codes.push_back(workers.add([&] { return code(program);
-//   })); workers.help(); for (std::future<Code>& code : codes) use(code.get());     // throws what
-//   the piece threw
+//   for (const Program& program : programs)
+//     codes.push_back(workers.add([&program] { return code_of(program); }));
+//   workers.help();
+//   for (std::future<Code>& code : codes) use(code.get());  // throws what the piece threw
 #pragma once
 
 #include <condition_variable>

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sinew/model/rotation.h"
+
 namespace sinew::model {
 namespace {
 
@@ -17,8 +19,7 @@ Matrix3 full(const Symmetric3& S) { return {S.xx, S.xy, S.xz, S.xy, S.yy, S.yz, 
 
 // R S R^T
 Symmetric3 rotated(const Matrix3& R, const Symmetric3& S) {
-  const bool turned = R.xx != 1 || R.yy != 1 || R.zz != 1;
-  if (!turned) return S;
+  if (is_identity(R)) return S;
   const Matrix3 M = R * full(S) * transpose(R);
   return {M.xx, 0.5 * (M.xy + M.yx), 0.5 * (M.xz + M.zx), M.yy, 0.5 * (M.yz + M.zy), M.zz};
 }

@@ -42,8 +42,14 @@ Matrix3 identity_rotation() { return {1, 0, 0, 0, 1, 0, 0, 0, 1}; }
 
 Pose identity_pose() { return {identity_rotation(), {0, 0, 0}}; }
 
+bool is_identity(const Matrix3& R) {
+  const bool turns_nothing =
+      R.xy == 0 && R.xz == 0 && R.yx == 0 && R.yz == 0 && R.zx == 0 && R.zy == 0;
+  return turns_nothing && R.xx == 1 && R.yy == 1 && R.zz == 1;
+}
+
 bool is_identity(const Pose& X) {
-  return X.R.xx == 1 && X.R.yy == 1 && X.R.zz == 1 && X.p.x == 0 && X.p.y == 0 && X.p.z == 0;
+  return is_identity(X.R) && X.p.x == 0 && X.p.y == 0 && X.p.z == 0;
 }
 
 Matrix3 rotation_about_z(double angle) {

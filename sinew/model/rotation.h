@@ -27,6 +27,8 @@ constexpr double kOrthonormalError = 1e-3;
 
 Matrix3 identity_rotation();
 Pose identity_pose();
+// Exactly: beside entries of 1 there is room for others of up to 1e-8, a tilt.
+bool is_identity(const Matrix3& R);
 bool is_identity(const Pose& X);
 
 // About z by an angle; about fixed axes x, then y, then z (URDF's roll, pitch, yaw).
