@@ -29,6 +29,16 @@ void Workers::put(Piece piece) {
   }
 }
 
+// What is waiting first, with the lock given up meanwhile.
+void Workers::do_first(std::unique_lock<std::mutex>& lock) {
+  Piece piece = std::move(waiting_.front());
+  waiting_.pop_front();
+  lock.unlock();
+  piece();
+  piece = nullptr;
+  lock.lock();
+}
+
 void Workers::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -36,25 +46,13 @@ void Workers::work() {
     changed_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
     --idle_;
     if (ends_) return;
-    Piece piece = std::move(waiting_.front());
-    waiting_.pop_front();
-    lock.unlock();
-    piece();
-    piece = nullptr;
-    lock.lock();
+    do_first(lock);
   }
 }
 
 void Workers::help() {
   std::unique_lock lock(mutex_);
-  while (!waiting_.empty()) {
-    Piece piece = std::move(waiting_.front());
-    waiting_.pop_front();
-    lock.unlock();
-    piece();
-    piece = nullptr;
-    lock.lock();
-  }
+  while (!waiting_.empty()) do_first(lock);
 }
 
 }  // namespace sinew

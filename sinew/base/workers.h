@@ -52,6 +52,7 @@ class Workers {
   using Piece = std::function<void()>;
 
   void put(Piece piece);
+  void do_first(std::unique_lock<std::mutex>& lock);
   void work();
 
   std::mutex mutex_;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "allocations.h"
+#include "refusal.h"
 #include "serial_chain.h"
 #include "sinew/base/error.h"
 #include "sinew/program/derivatives.h"
@@ -99,30 +100,20 @@ program::Program joint_of(double unit_force) {
   return program;
 }
 
-template <typename Make>
-std::string refusal_of(Make make) {
-  try {
-    make();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "none";
-}
-
 TEST(Interpreter, RefusesADivisionByAConstantZeroLikeGeneratedCode) {
-  EXPECT_EQ(refusal_of([] { backend::Interpreter{joint_of(0.5)}; }), "none");
-  const std::string refusal = refusal_of([] { backend::Interpreter{joint_of(0)}; });
-  EXPECT_NE(refusal.find("https://example.org/joint: its 'joint-acceleration-from-force' divides "
-                         "by zero"),
+  EXPECT_EQ(refusal([] { backend::Interpreter{joint_of(0.5)}; }), "none");
+  const std::string text = refusal([] { backend::Interpreter{joint_of(0)}; });
+  EXPECT_NE(text.find("https://example.org/joint: its 'joint-acceleration-from-force' divides "
+                      "by zero"),
             std::string::npos)
-      << refusal;
-  EXPECT_EQ(refusal, refusal_of([] { program::scalar_program(joint_of(0)); }));
+      << text;
+  EXPECT_EQ(text, refusal([] { program::scalar_program(joint_of(0)); }));
 }
 
 TEST(Interpreter, MindsNoDivisionByZeroThatNothingUses) {
   program::Program program = joint_of(0);
   program.variables[4].output = false;
-  EXPECT_EQ(refusal_of([&] { backend::Interpreter{program}; }), "none");
+  EXPECT_EQ(refusal([&] { backend::Interpreter{program}; }), "none");
 }
 
 TEST(Interpreter, CarriesStatesFromOneEvaluationToTheNext) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refusal.h"
 #include "sinew/base/error.h"
 
 namespace sinew::backend {
@@ -41,12 +42,7 @@ TEST(Render, RefusesNamesThatNothingFillsIn) {
       {"{{list}}", "a template:1: 'list' is a section, and has no text; write {{#list}}"},
   };
   for (const auto& [text, error] : cases) {
-    try {
-      const std::string result = filled(text, fields);
-      ADD_FAILURE() << text << " became " << result;
-    } catch (const Error& refusal) {
-      EXPECT_THAT(refusal.what(), testing::HasSubstr(error));
-    }
+    EXPECT_THAT(refusal([&] { filled(text, fields); }), testing::HasSubstr(error)) << text;
   }
 }
 
@@ -59,13 +55,8 @@ TEST(Render, AsksInSectionsWhetherANameIsThere) {
 }
 
 TEST(Render, NamesTheFileOfATemplate) {
-  try {
-    render("c/readable.c.mustache", {});
-    FAIL() << "it has no banner";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("templates/c/readable.c.mustache:2: nothing "
-                                                 "fills in 'banner'"));
-  }
+  EXPECT_THAT(refusal([] { render("c/readable.c.mustache", {}); }),
+              testing::HasSubstr("templates/c/readable.c.mustache:2: nothing fills in 'banner'"));
 }
 
 TEST(Render, LeavesOutSectionsThatAreNotThere) {
