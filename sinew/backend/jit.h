@@ -29,7 +29,8 @@ enum class JitLevel : std::uint8_t {
 struct JitOptions {
   JitLevel level = JitLevel::kFull;
   // Compiled code is kept here, under a hash of the program, the processor and this build of the
-  // compiler; empty: nowhere.
+  // compiler; empty: nowhere. Processes may share the folder. What is damaged there, or may have
+  // been written by another user, is compiled again and not run.
   std::string cache_folder;
   // Without it only the function of one sample is compiled, in less than half the time; a batch
   // calls it sample by sample.
