@@ -1,6 +1,7 @@
 // The flat style: the whole program as straight-line code on numbers.
 #include "sinew/backend/c_flat_body.h"
 #include "sinew/backend/c_flat_limbs.h"
+#include "sinew/backend/c_flat_plan.h"
 #include "sinew/backend/c_parts.h"
 #include "sinew/backend/numbers.h"
 
@@ -50,20 +51,24 @@ RenderedSource flat_source(const program::ScalarProgram& scalar,
   const FlatLayout layout =
       evaluation_layout(scalar.program, interface, identifiers, scalar.computation);
   FlatOptions flat{name, FlatForm::kSample, options.scalar, "sample", options.maximum_statements};
+  const bool cuda = options.language == Language::kCuda;
+  const FlatPlan plan =
+      plan_flat(scalar.computation, layout, cuda ? FlatForm::kThread : FlatForm::kSample,
+                flat.maximum_statements);
   const auto body = [&](FlatForm form) {
     flat.form = form;
-    return flat_body(scalar.computation, layout, flat);
+    return flat_body(scalar.computation, layout, flat, plan);
   };
   const bool held = !scalar.update.results.empty();
-  const bool cuda = options.language == Language::kCuda;
   FlatBody update;
   if (held) {
     FlatOptions of_update = flat;
     of_update.of = "update";
     of_update.form = cuda ? FlatForm::kThread : FlatForm::kSample;
+    const FlatLayout of_held = update_layout(scalar.program, interface, identifiers, scalar.update);
     update =
-        flat_body(scalar.update,
-                  update_layout(scalar.program, interface, identifiers, scalar.update), of_update);
+        flat_body(scalar.update, of_held, of_update,
+                  plan_flat(scalar.update, of_held, of_update.form, of_update.maximum_statements));
   }
   const auto with_update = [&](Blocks blocks, std::size_t at) {
     if (!held) return blocks;

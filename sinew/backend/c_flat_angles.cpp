@@ -43,7 +43,7 @@ void FlatEmitter::angles(const AngleGroup& group) {
     from = "angle" + tag;
   } else if (contiguous(group, padded)) {
     const std::uint32_t first = layout_.inputs[dag_.node(group.angles[0]).index].index;
-    touched_.insert("in");
+    touch("in");
     from = fmt::format("in + {}", first);
   } else {
     std::string list;
@@ -133,7 +133,7 @@ void FlatEmitter::take(std::uint32_t node, const std::string& name, const std::s
                        int k) {
   if (node == AngleGroup::kNone) return;
   if (stages_) {  // read where it is used
-    in_memory_[node] = {name, fmt::format("{}[{}]", array, k)};
+    in_memory(node) = {name, fmt::format("{}[{}]", array, k)};
     return;
   }
   names_[node] = given_.unique(name);

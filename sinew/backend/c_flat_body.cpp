@@ -20,12 +20,24 @@ using program::Node;
 using program::Op;
 using program::Ref;
 
+namespace {
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// Fewer nodes use too few constants to make up for the pointer to their table.
+constexpr std::size_t kLeastInStages = 60;
+
+}  // namespace
+
 FlatEmitter::FlatEmitter(const Computation& computation, const FlatLayout& layout,
-                         const FlatOptions& options)
+                         const FlatOptions& options, const FlatPlan& plan)
     : layout_(layout),
       computation_(computation),
       dag_(computation.dag),
       options_(options),
+      plan_(plan),
       prefix_(options.name),
       upper_(upper_case(options.name)),
       block_form_(options.form == FlatForm::kBlock),
@@ -33,16 +45,17 @@ FlatEmitter::FlatEmitter(const Computation& computation, const FlatLayout& layou
       suffix_(options.scalar == Scalar::kFloat ? "f" : ""),
       type_(block_form_ ? options.name + "_lanes" : scalar_),
       names_(dag_.size()),
-      constants_(dag_.size()) {
+      memory_of_(dag_.size(), kNoSlot),
+      stages_(options.form == FlatForm::kSample &&
+              plan.groups.after.size() <= options.maximum_statements &&
+              (plan.kept.any() || plan.groups.after.size() >= kLeastInStages)) {
   for (const FlatPlace& place : layout.inputs) use(place.array);
   for (const FlatPlace& place : layout.results) use(place.array);
   use("in");
 }
 
 FlatBody FlatEmitter::run() {
-  find_results();
-  const AngleGroups groups = group_angles(computation_);
-  plan_stages(groups);
+  const AngleGroups& groups = plan_.groups;
   // Pointers that live while sines are computed would need registers that a call preserves.
   const bool only_inputs =
       std::all_of(groups.groups.begin(), groups.groups.end(),
@@ -60,7 +73,7 @@ FlatBody FlatEmitter::run() {
     if (!names_[i].empty() && dag_.node(i).op != Op::kInput) before.push_back(i);
   }
   std::vector<Ref> last;  // what is read at the end
-  for (const std::uint32_t k : later_) last.push_back(computation_.results[k]);
+  for (const std::uint32_t k : plan_.later) last.push_back(computation_.results[k]);
   parts_ = divide_into_parts(computation_, before, groups.after, last, options_.maximum_statements);
   if (parts_.parts.empty()) {
     for (const std::uint32_t node : groups.after) emit(node);
@@ -71,32 +84,49 @@ FlatBody FlatEmitter::run() {
   later_results();
   if (stages_) declare_constants();
   for (const std::string& array : arrays_) {
-    if (!touched_.contains(array)) line(fmt::format("(void){};", array));
+    if (!contains(touched_, array)) line(fmt::format("(void){};", array));
   }
-  if (strided() && !touched_.contains("n")) line("(void)n;");
+  if (strided() && !contains(touched_, "n")) line("(void)n;");
   return std::move(result_);
 }
 
 void FlatEmitter::use(const std::string& array) {
-  if (std::find(arrays_.begin(), arrays_.end(), array) == arrays_.end()) arrays_.push_back(array);
+  if (!contains(arrays_, array)) arrays_.push_back(array);
+}
+
+void FlatEmitter::touch(std::string_view name) {
+  if (!contains(touched_, name)) touched_.emplace_back(name);
+}
+
+FlatEmitter::InMemory& FlatEmitter::in_memory(std::uint32_t node) {
+  if (memory_of_[node] == kNoSlot) {
+    memory_of_[node] = static_cast<std::uint32_t>(memory_.size());
+    memory_.emplace_back();
+  }
+  return memory_[memory_of_[node]];
 }
 
 // A number of one sample: "in[3]", "in[3 * n]". What is held is the same for all samples.
 std::string FlatEmitter::element(const FlatPlace& place) {
-  const bool stride = strided() && std::string_view(place.array) != "held";
-  touched_.insert(place.array);
-  if (stride) touched_.insert("n");
-  if (middle_of_inputs_ > 0 && std::string_view(place.array) == "in") {
-    return fmt::format("inputs[{}]", static_cast<int>(place.index) - middle_of_inputs_);
-  }
-  return fmt::format("{}[{}{}]", place.array, place.index, stride ? " * n" : "");
+  const std::string_view array = place.array;
+  const bool stride = strided() && array != "held";
+  touch(array);
+  if (stride) touch("n");
+  const bool of_inputs = middle_of_inputs_ > 0 && array == "in";
+  std::string text(of_inputs ? "inputs" : array);
+  text += '[';
+  text += Digits(static_cast<std::int64_t>(place.index) - (of_inputs ? middle_of_inputs_ : 0));
+  return text += stride && !of_inputs ? " * n]" : "]";
 }
 
 // Where a number lies for neighbouring samples.
 std::string FlatEmitter::address(const FlatPlace& place) {
-  touched_.insert(place.array);
-  touched_.insert("n");
-  return fmt::format("{} + {} * n", place.array, place.index);
+  touch(place.array);
+  touch("n");
+  std::string text = place.array;
+  text += " + ";
+  text += Digits(place.index);
+  return text += " * n";
 }
 
 void FlatEmitter::line(std::string_view text, std::uint32_t origin) {
@@ -112,14 +142,7 @@ void FlatEmitter::declare(std::string_view type, std::string_view name, std::str
 // The name of a node, which is read first if it has not been emitted, or its number.
 const std::string& FlatEmitter::value(std::uint32_t i) {
   const Node& node = dag_.node(i);
-  if (node.op == Op::kConstant) {
-    if (stages_) {
-      constants_[i] = constant(node.value);
-    } else if (constants_[i].empty()) {
-      constants_[i] = number(node.value);
-    }
-    return constants_[i];
-  }
+  if (node.op == Op::kConstant) return constant(i, node.value);
   if (names_[i].empty()) {
     if (node.op == Op::kInput) {
       if (stages_ && !is_state(node)) return input_again(i, node);
@@ -219,29 +242,16 @@ void FlatEmitter::lane_by_lane(std::uint32_t i, const Node& node) {
   line("}");
 }
 
-// Results go to `out` as soon as they are computed, so that they need no register to the end.
-// States may not be written before all have been read: with what is no operation, they come last.
-void FlatEmitter::find_results() {
-  results_of_.resize(dag_.size());
-  for (std::uint32_t k = 0; k < computation_.results.size(); ++k) {
-    const std::uint32_t node = computation_.results[k].node();
-    const Op op = dag_.node(node).op;
-    const bool at_once = std::string_view(layout_.results[k].array) == "out" &&
-                         program::arity(op) > 0 && op != Op::kSin && op != Op::kCos;
-    (at_once ? results_of_[node] : later_).push_back(k);
-  }
-}
-
 void FlatEmitter::results_of(std::uint32_t node) {
-  for (const std::uint32_t k : results_of_[node]) write(k);
+  for (std::uint32_t k = plan_.result_of[node]; k != kNoSlot; k = plan_.next_result[k]) write(k);
 }
 
 void FlatEmitter::later_results() {
-  for (const std::uint32_t k : later_) {
+  for (const std::uint32_t k : plan_.later) {
     if (!dag_.is_constant(computation_.results[k])) value(computation_.results[k]);
   }
   std::vector<std::uint32_t> zeros;  // of `out`
-  for (const std::uint32_t k : later_) {
+  for (const std::uint32_t k : plan_.later) {
     const FlatPlace& place = layout_.results[k];
     if (options_.form == FlatForm::kSample && dag_.is_constant(computation_.results[k], 0.0) &&
         std::string_view(place.array) == "out") {
@@ -251,7 +261,7 @@ void FlatEmitter::later_results() {
     }
   }
   if (zeros.empty()) return;
-  touched_.insert("out");
+  touch("out");
   write_zeros(*block_, given_, {"out", number(0.0), upper_}, zeros);
 }
 
@@ -267,10 +277,12 @@ void FlatEmitter::write(std::uint32_t k) {
   const std::uint32_t origin = dag_.node(result).origin;
   if (!block_form_) {
     const std::string to = element(place);
-    const std::string from = dag_.is_constant(result)
-                                 ? (result.negative() ? "-" : "") + number(dag_.node(result).value)
-                                 : value(result);
-    block_->add({"  ", to, " = ", from, ";"}, origin);
+    const std::string_view sign = result.negative() ? "-" : "";
+    if (dag_.is_constant(result)) {
+      block_->add({"  ", to, " = ", sign, number(dag_.node(result).value), ";"}, origin);
+    } else {
+      block_->add({"  ", to, " = ", sign, value(result.node()), ";"}, origin);
+    }
     return;
   }
   const std::string sum = dag_.is_constant(result) ? value(result) + " + zero" : value(result);
@@ -295,8 +307,8 @@ std::string scalar_number(double value, Scalar scalar) {
 }
 
 FlatBody flat_body(const Computation& computation, const FlatLayout& layout,
-                   const FlatOptions& options) {
-  return FlatEmitter(computation, layout, options).run();
+                   const FlatOptions& options, const FlatPlan& plan) {
+  return FlatEmitter(computation, layout, options, plan).run();
 }
 
 }  // namespace sinew::backend

@@ -45,9 +45,11 @@ struct FlatBody {
   std::size_t angles = 0;  // whose sine or cosine is taken
 };
 
+struct FlatPlan;  // c_flat_plan.h
+
 // Throws Error for a constant that the scalar cannot hold.
 FlatBody flat_body(const program::Computation& computation, const FlatLayout& layout,
-                   const FlatOptions& options);
+                   const FlatOptions& options, const FlatPlan& plan);
 
 // A number of the scalar type as C source. Throws Error where a float cannot hold it.
 std::string scalar_number(double value, Scalar scalar);

@@ -20,14 +20,14 @@ void FlatEmitter::call_parts(const std::vector<std::uint32_t>& before) {
   if (strided()) {
     parameters += ", size_t n";
     arguments += ", n";
-    touched_.insert("n");
+    touch("n");
   }
   const bool has_out = std::find(arrays_.begin(), arrays_.end(), "out") != arrays_.end();
   if (has_out) {
     parameters += fmt::format(", {} *{}_RESTRICT out", scalar_, upper_);
     arguments += ", out";
   }
-  for (const std::string& array : arrays_) touched_.insert(array);
+  for (const std::string& array : arrays_) touch(array);
   line(fmt::format("{0}_ALIGNED {3} kept[{1}{2}];", upper_, parts_.slots,
                    block_form_ ? fmt::format(" * {}_LANES", upper_) : "", scalar_));
   for (const std::uint32_t node : before) keep(node);

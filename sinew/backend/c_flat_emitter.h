@@ -6,24 +6,22 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <string_view>
-#include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
-#include "sinew/backend/angle_groups.h"
 #include "sinew/backend/c_flat_body.h"
+#include "sinew/backend/c_flat_plan.h"
 #include "sinew/backend/c_names.h"
 #include "sinew/backend/flat_parts.h"
-#include "sinew/backend/kept_values.h"
 
 namespace sinew::backend {
 
 class FlatEmitter {
  public:
   FlatEmitter(const program::Computation& computation, const FlatLayout& layout,
-              const FlatOptions& options);
+              const FlatOptions& options, const FlatPlan& plan);
 
   FlatBody run();
 
@@ -35,6 +33,7 @@ class FlatEmitter {
   // Arrays and lines.
   bool strided() const { return options_.form != FlatForm::kSample; }
   void use(const std::string& array);
+  void touch(std::string_view name);
   std::string element(const FlatPlace& place);
   std::string address(const FlatPlace& place);
   std::string number(double value) const { return scalar_number(value, options_.scalar); }
@@ -51,7 +50,6 @@ class FlatEmitter {
   void lane_by_lane(std::uint32_t i, const Node& node);
 
   // Results.
-  void find_results();
   void results_of(std::uint32_t node);
   void later_results();
   void declare_zero();
@@ -72,13 +70,12 @@ class FlatEmitter {
   void read_kept(std::uint32_t node);
 
   // Stages (c_flat_stages.cpp).
-  void plan_stages(const AngleGroups& groups);
   void declare_kept();
   void begin_step();
   void end_step();
   void point_to(const std::string& pointer);
   void new_constants();
-  std::string constant(double value);
+  const std::string& constant(std::uint32_t i, double value);
   const std::string& input_again(std::uint32_t i, const Node& node);
   void wait_in_memory(std::uint32_t node);
   void read_again(std::uint32_t node);
@@ -89,33 +86,35 @@ class FlatEmitter {
   const program::Computation& computation_;
   const program::Dag& dag_;
   const FlatOptions& options_;
+  const FlatPlan& plan_;
   std::string prefix_, upper_;
   bool block_form_;
   std::string scalar_, suffix_;  // "float", "f" behind the names of functions
   std::string type_;             // of a value
   std::vector<std::string> arrays_;
-  std::unordered_set<std::string> touched_;             // arrays, and n, that the code names
-  std::vector<std::string> names_;                      // of nodes; empty: not emitted yet
-  std::vector<std::string> constants_;                  // their texts, once they are used
-  std::string expression_;                              // of the statement that is being written
-  std::vector<std::vector<std::uint32_t>> results_of_;  // of a node: written with it
-  std::vector<std::uint32_t> later_;                    // results that are written at the end
+  std::vector<std::string> touched_;  // arrays, and n, that the code names
+  std::vector<std::string> names_;    // of nodes; empty: not emitted yet
+  std::string expression_;            // of the statement that is being written
   bool zero_ = false;
   FlatParts parts_;
 
-  // Of stages. All empty where values need not wait in memory.
+  // What can be read again: "t17", "kept[3]"; a constant: "0.5", "NUMBER(3, 0.5)".
   struct InMemory {
-    std::string name, place;  // "t17", "kept[3]"
+    std::string name, place;
   };
-  bool stages_ = false;
-  KeptValues kept_;
+  InMemory& in_memory(std::uint32_t node);
+  std::vector<std::uint32_t> memory_of_;  // of a node, in:
+  std::deque<InMemory> memory_;           // it grows while texts of it are in use
+
+  // Of stages. All empty where values need not wait in memory.
+  bool stages_;
   std::uint32_t step_ = 0;
-  int middle_of_inputs_ = 0;  // where `inputs` points to; 0: there is no such pointer
-  std::unordered_map<std::uint32_t, InMemory> in_memory_;  // nodes that can be read again
-  std::vector<std::uint32_t> named_;                       // nodes read from memory in this stage
-  std::vector<std::string> pointers_;                      // to the arrays that they lie in
-  std::vector<std::string> table_;                         // constants, in the order of their use
-  std::size_t window_ = 0;                                 // those that `number` points to now
+  int middle_of_inputs_ = 0;           // where `inputs` points to; 0: there is no such pointer
+  std::vector<std::uint32_t> named_;   // nodes read from memory in this stage
+  std::vector<std::string> pointers_;  // to the arrays that they lie in
+  std::string table_;                  // constants, in the order of their use
+  std::size_t table_size_ = 0;
+  std::size_t window_ = 0;  // those that `number` points to now
 
   CNames given_ = {"in",   "out",    "state",   "held",    "n",       "kept",   "angle",
                    "sine", "cosine", "lane",    "zero",    "result",  "y",      "a",

@@ -29,7 +29,7 @@ void LimbEmitter::take_sines(std::uint32_t angle, const Numbers& sines, const Nu
     const auto& [array, at] = node.op == Op::kSin ? sines : cosines;
     const char* base = node.op == Op::kSin ? "sine_of" : "cosine_of";
     if (again) {
-      in_memory_[nodes_.of(at_, i)] = {base, array, at};
+      put_in_memory(nodes_.of(at_, i)) = {base, array, at};
       continue;
     }
     const std::string name = given_.unique(base);

@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -88,7 +87,8 @@ class LimbEmitter {
   std::vector<std::string> types_;               // of each region's values
   std::vector<std::vector<std::string>> names_;  // [region][node]: or the text of a constant
   std::vector<std::vector<std::uint8_t>> live_;
-  std::vector<std::vector<std::vector<std::uint32_t>>> results_of_;  // [region][node]
+  // Results that are written with a value: the first of them, and the one after each.
+  std::vector<std::uint32_t> result_of_, next_result_;
   std::vector<std::uint32_t> later_;  // results that no region computes
   std::size_t at_ = 0;                // the region
   std::size_t groups_ = 0;
@@ -102,8 +102,12 @@ class LimbEmitter {
   KeptValues kept_;  // empty where no value need wait
   std::size_t step_ = 0;
   std::vector<std::string> pointers_;  // to what waits there, and to sines
-  std::unordered_map<std::uint32_t, InMemory> in_memory_;
-  std::unordered_map<std::uint32_t, std::string*> waiting_;   // names of values that are kept
+  InMemory& put_in_memory(std::uint32_t value);
+  bool is_in_memory(std::uint32_t value) const { return memory_of_[value] != kNoSlot; }
+  const InMemory& in_memory(std::uint32_t value) const { return memory_.at(memory_of_[value]); }
+  std::vector<std::uint32_t> memory_of_;  // of a value, in:
+  std::vector<InMemory> memory_;
+  std::vector<std::string*> waiting_;                         // names of values that are kept
   std::vector<std::pair<std::size_t, std::uint32_t>> named_;  // read in this stage
 
   std::map<unsigned, std::string> zeros_;  // by width: a vector of zeros

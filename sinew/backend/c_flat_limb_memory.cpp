@@ -14,7 +14,9 @@ namespace {
 
 // "kept + 3"
 std::string offset(const std::string& array, int place) {
-  return array + (place < 0 ? " - " : " + ") + std::to_string(std::abs(place));
+  std::string text = array;
+  text += place < 0 ? " - " : " + ";
+  return text += Digits(std::abs(place));
 }
 
 }  // namespace
@@ -35,8 +37,16 @@ void LimbEmitter::begin_step() {
 
 void LimbEmitter::end_step() {
   if (!kept_.any()) return;
-  for (const std::uint32_t value : kept_.leaving[step_]) waiting_.at(value)->clear();
+  for (const std::uint32_t value : kept_.leaving(step_)) waiting_.at(value)->clear();
   ++step_;
+}
+
+LimbEmitter::InMemory& LimbEmitter::put_in_memory(std::uint32_t value) {
+  if (!is_in_memory(value)) {
+    memory_of_[value] = static_cast<std::uint32_t>(memory_.size());
+    memory_.emplace_back();
+  }
+  return memory_[memory_of_[value]];
 }
 
 // Writes a value that has just been computed where it will be read.
@@ -49,10 +59,9 @@ void LimbEmitter::wait_in_memory(std::uint32_t node) {
     body_.code.add(
         {"  memcpy(", offset(place.pointer, place.offset), ", &", name, ", sizeof ", name, ");"});
   } else {
-    body_.code.add(
-        {"  KEPT(", place.pointer, ", ", std::to_string(place.offset), ") = ", name, ";"});
+    body_.code.add({"  KEPT(", place.pointer, ", ", Digits(place.offset), ") = ", name, ";"});
   }
-  in_memory_[value] = {name, place.pointer, place.offset};
+  put_in_memory(value) = {name, place.pointer, place.offset};
   waiting_[value] = &names_[at_][node];
 }
 
@@ -60,14 +69,13 @@ void LimbEmitter::wait_in_memory(std::uint32_t node) {
 const std::string& LimbEmitter::name_of(std::size_t region, std::uint32_t node) {
   std::string& name = names_[region][node];
   if (!name.empty()) return name;
-  const auto& [base, array, place] = in_memory_.at(nodes_.of(region, node));
+  const auto& [base, array, place] = in_memory(nodes_.of(region, node));
   name = given_.unique(base);
   if (const std::uint32_t lanes = program_.regions[region].lanes; lanes > 1) {
     body_.code.add({"  ", types_[region], " ", name, "; memcpy(&", name, ", ", offset(array, place),
                     ", sizeof ", name, ");"});
   } else {
-    body_.code.add(
-        {"  const ", scalar_, " ", name, " = ", array, "[", std::to_string(place), "];"});
+    body_.code.add({"  const ", scalar_, " ", name, " = ", array, "[", Digits(place), "];"});
   }
   named_.emplace_back(region, node);
   return name;
@@ -76,9 +84,12 @@ const std::string& LimbEmitter::name_of(std::size_t region, std::uint32_t node) 
 // One lane of it.
 std::string LimbEmitter::lane_of(std::size_t region, std::uint32_t node, std::uint32_t lane) {
   if (program_.regions[region].lanes == 1) return name_of(region, node);
-  if (!names_[region][node].empty()) return fmt::format("{}[{}]", names_[region][node], lane);
-  const InMemory& from = in_memory_.at(nodes_.of(region, node));
-  return fmt::format("{}[{}]", from.array, from.place + static_cast<int>(lane));
+  const std::string& name = names_[region][node];
+  const InMemory* from = name.empty() ? &in_memory(nodes_.of(region, node)) : nullptr;
+  std::string text = from == nullptr ? name : from->array;
+  text += '[';
+  text += Digits(static_cast<int>(lane) + (from == nullptr ? 0 : from->place));
+  return text += ']';
 }
 
 }  // namespace sinew::backend

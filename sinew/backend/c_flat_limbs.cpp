@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "sinew/backend/c_arithmetic.h"
 #include "sinew/backend/c_flat_limb_emitter.h"
@@ -25,6 +26,13 @@ namespace {
 
 bool is_trigonometric(const Node& node) { return node.op == Op::kSin || node.op == Op::kCos; }
 
+std::string element(std::string_view array, std::uint32_t index) {
+  std::string text(array);
+  text += '[';
+  text += Digits(index);
+  return text += ']';
+}
+
 }  // namespace
 
 LimbEmitter::LimbEmitter(const LimbProgram& program, const FlatLayout& layout,
@@ -35,7 +43,9 @@ LimbEmitter::LimbEmitter(const LimbProgram& program, const FlatLayout& layout,
       upper_(upper_case(options.name)),
       scalar_(options.scalar == Scalar::kFloat ? "float" : "double"),
       suffix_(options.scalar == Scalar::kFloat ? "f" : ""),
-      nodes_(program) {
+      nodes_(program),
+      memory_of_(nodes_.size(), kNoSlot),
+      waiting_(nodes_.size(), nullptr) {
   for (const LimbRegion& region : program.regions) {
     names_.emplace_back(region.computation.dag.size());
     live_.push_back(program::live_nodes(region.computation));
@@ -59,7 +69,7 @@ LimbBody LimbEmitter::run() {
   for (at_ = 0; at_ < program_.regions.size(); ++at_) {
     for (const std::uint32_t i : orders[at_]) {
       begin_step();
-      if (!in_memory_.contains(nodes_.of(at_, i))) value(i);
+      if (!is_in_memory(nodes_.of(at_, i))) value(i);
       write_results(i);
       end_step();
     }
@@ -75,44 +85,47 @@ void LimbEmitter::line(std::string_view text, std::uint32_t origin) {
 
 // Results are written as soon as they are computed, so that they need no register to the end.
 void LimbEmitter::find_results() {
-  for (const LimbRegion& region : program_.regions) {
-    results_of_.emplace_back(region.computation.dag.size());
-  }
-  for (std::uint32_t k = 0; k < program_.results.size(); ++k) {
+  const auto count = static_cast<std::uint32_t>(program_.results.size());
+  result_of_.assign(nodes_.size(), kNoSlot);
+  next_result_.assign(count, kNoSlot);
+  for (std::uint32_t k = count; k-- > 0;) {
     const LimbSource& source = program_.results[k];
     const bool of_region = source.kind == LimbSource::Kind::kRegion;
     const Computation* computation =
         of_region ? &program_.regions[source.region].computation : nullptr;
     const Ref ref = of_region ? computation->results[source.index] : Ref{};
     if (of_region && program::arity(computation->dag.node(ref).op) > 0) {
-      results_of_[source.region][ref.node()].push_back(k);
+      next_result_[k] = std::exchange(result_of_[nodes_.of(source.region, ref.node())], k);
     } else {
       later_.push_back(k);
     }
   }
+  std::reverse(later_.begin(), later_.end());
 }
 
 void LimbEmitter::write(std::uint32_t k) {
   const FlatPlace& place = layout_.results[k];
-  line(fmt::format("{}[{}] = {};", place.array, place.index, text(program_.results[k])));
+  const std::string from = text(program_.results[k]);
+  body_.code.add({"  ", place.array, "[", Digits(place.index), "] = ", from, ";"});
 }
 
 // Of a node that has just been computed. A vector of which several lanes are wanted negative is
 // negated once.
 void LimbEmitter::write_results(std::uint32_t node) {
-  const std::vector<std::uint32_t>& results = results_of_[at_][node];
+  const std::uint32_t first = result_of_[nodes_.of(at_, node)];
   const auto is_negative = [&](std::uint32_t k) {
     const Source& source = program_.results[k];
     return region().computation.results[source.index].negative() != source.negative;
   };
-  const auto negatives = std::count_if(results.begin(), results.end(), is_negative);
+  int negatives = 0;
+  for (std::uint32_t k = first; k != kNoSlot; k = next_result_[k]) negatives += is_negative(k);
   std::string turned;
   if (in_lanes() && negatives > 1) {
     const std::string name = name_of(at_, node);
     turned = given_.temporary();
     body_.code.add({"  const ", type(), " ", turned, " = -", name, ";"});
   }
-  for (const std::uint32_t k : results) {
+  for (std::uint32_t k = first; k != kNoSlot; k = next_result_[k]) {
     if (turned.empty() || !is_negative(k)) {
       write(k);
     } else {
@@ -150,7 +163,7 @@ std::string LimbEmitter::text(const LimbSource& source) {
       return number(source.value);
     case LimbSource::Kind::kCaller: {
       const FlatPlace& place = layout_.inputs[source.index];
-      return fmt::format("{}[{}]", place.array, place.index);
+      return element(place.array, place.index);
     }
     default:
       break;
@@ -173,9 +186,10 @@ std::string LimbEmitter::vector(Lane lane) const {
   const std::uint32_t lanes = region().lanes;
   std::string list;
   for (unsigned k = 0; k < program::vector_width(lanes); ++k) {
-    list += (k == 0 ? "{ " : ", ") + lane(k < lanes ? k : 0);
+    list += k == 0 ? "{ " : ", ";
+    list += lane(k < lanes ? k : 0);
   }
-  return list + " }";
+  return list += " }";
 }
 
 // A vector of zeros of the region's type. C++ has no compound literals.
@@ -196,7 +210,7 @@ std::string LimbEmitter::input(const Node& node) {
                                ? given_.unique(layout_.input_names[first.index])
                                : given_.temporary();
   if (!in_lanes()) {
-    line(fmt::format("const {} {} = {};", scalar_, name, text(first)));
+    body_.code.add({"  const ", scalar_, " ", name, " = ", text(first), ";"});
     return name;
   }
   if (const auto same = same_vector(sources)) {
@@ -211,9 +225,11 @@ std::string LimbEmitter::input(const Node& node) {
     return name;
   }
   std::vector<std::string> texts;
+  texts.reserve(sources.size());
   for (const LimbSource& source : sources) texts.push_back(text(source));
-  line(fmt::format("const {} {} = {};", type(), name,
-                   vector([&](std::uint32_t lane) { return texts[lane]; })));
+  const std::string lanes =
+      vector([&](std::uint32_t lane) -> const std::string& { return texts[lane]; });
+  body_.code.add({"  const ", type(), " ", name, " = ", lanes, ";"});
   return name;
 }
 
@@ -233,7 +249,7 @@ const std::string& LimbEmitter::value(std::uint32_t i) {
   if (!name.empty()) return name;
   if (node.op == Op::kConstant) {
     name = number(node.value);
-  } else if (in_memory_.contains(nodes_.of(at_, i))) {
+  } else if (is_in_memory(nodes_.of(at_, i))) {
     name_of(at_, i);
   } else {
     compute(i, node);
@@ -253,7 +269,7 @@ void LimbEmitter::compute(std::uint32_t i, const Node& node) {
     sine_of(node.a.node());
     return;
   }
-  const std::string expression = express(node);
+  const std::string expression = express(node);  // which may compute others
   std::string& name = names_[at_][i];
   name = given_.temporary();
   body_.code.add({"  const ", type(), " ", name, " = ", expression, ";"}, node.origin);

@@ -1,6 +1,9 @@
 // The parts from which the C target puts its files together; internal to `backend`.
 #pragma once
 
+#include <array>
+#include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <string>
@@ -36,6 +39,20 @@ struct CodeBlock {
   // A line of several pieces.
   void add(std::initializer_list<std::string_view> pieces,
            std::uint32_t closure = program::kNoOrigin);
+};
+
+// The digits of a number, as a piece of a line.
+class Digits {
+ public:
+  explicit Digits(std::int64_t number)
+      : end_(std::to_chars(text_.data(), text_.data() + text_.size(), number).ptr) {}
+  operator std::string_view() const {  // NOLINT: it is one
+    return {text_.data(), static_cast<std::size_t>(end_ - text_.data())};
+  }
+
+ private:
+  std::array<char, 24> text_;  // more than those of any integer
+  const char* end_;
 };
 
 struct RenderedSource {

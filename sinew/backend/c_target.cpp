@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <future>
 #include <unordered_set>
 #include <utility>
@@ -106,8 +107,15 @@ constexpr std::size_t kLeastClosuresOfAThread = 300;
 }  // namespace
 
 void CodeBlock::add(std::initializer_list<std::string_view> pieces, std::uint32_t closure) {
-  for (const std::string_view piece : pieces) text += piece;
-  text += '\n';
+  std::size_t size = 1;
+  for (const std::string_view piece : pieces) size += piece.size();
+  text.resize(text.size() + size);
+  char* at = text.data() + text.size() - size;
+  for (const std::string_view piece : pieces) {
+    std::memcpy(at, piece.data(), piece.size());
+    at += piece.size();
+  }
+  *at = '\n';
   ++lines;
   if (closure != program::kNoOrigin) origins.push_back({lines, closure});
 }

@@ -7,7 +7,7 @@ namespace sinew::backend {
 KeptValues keep_values(const ValueSteps& steps, std::uint32_t registers) {
   KeptValues kept;
   kept.slot.assign(steps.values(), kNoSlot);
-  kept.leaving.resize(steps.size());
+  kept.left_ends.reserve(steps.size());
   Readers readers(steps);
   std::vector<SlotUse> uses(steps.values(), {1, 0});
   std::vector<std::uint32_t> held;  // values in registers
@@ -16,8 +16,10 @@ KeptValues keep_values(const ValueSteps& steps, std::uint32_t registers) {
       readers.pass(value, step);
       ++uses[value].count;
       uses[value].last = step;
+      if (readers.is_read_later(value)) continue;
+      if (const auto found = std::find(held.begin(), held.end(), value); found != held.end())
+        held.erase(found);
     }
-    std::erase_if(held, [&](std::uint32_t value) { return !readers.is_read_later(value); });
     for (const std::uint32_t value : steps.defines(step)) {
       if (readers.is_read_later(value)) held.push_back(value);
     }
@@ -25,10 +27,11 @@ KeptValues keep_values(const ValueSteps& steps, std::uint32_t registers) {
       const auto last = std::max_element(
           held.begin(), held.end(),
           [&](std::uint32_t a, std::uint32_t b) { return readers.next(a) < readers.next(b); });
-      kept.leaving[step].push_back(*last);
+      kept.left.push_back(*last);
       kept.slot[*last] = 0;  // share_slots says which
       held.erase(last);
     }
+    kept.left_ends.push_back(static_cast<std::uint32_t>(kept.left.size()));
   }
   kept.size = share_slots(steps, uses, kept.slot);
   return kept;

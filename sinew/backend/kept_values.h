@@ -7,7 +7,9 @@
 // `backend`.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,10 +32,16 @@ inline constexpr std::uint32_t kKeptPointers = 4;
 
 struct KeptValues {
   std::vector<std::uint32_t> slot;  // of a value: its place in the array; kNoSlot: never there
-  std::vector<std::vector<std::uint32_t>> leaving;  // after each step: what is read there from now
-  std::uint32_t size = 0;                           // numbers in the array
+  std::uint32_t size = 0;           // numbers in the array
 
   bool any() const { return size > 0; }
+  // What is read from memory from after this step on.
+  std::span<const std::uint32_t> leaving(std::size_t step) const {
+    const std::uint32_t begin = step == 0 ? 0 : left_ends[step - 1];
+    return std::span(left).subspan(begin, left_ends[step] - begin);
+  }
+
+  std::vector<std::uint32_t> left, left_ends;  // those of all steps, and where each step's end
 };
 
 // Where a slot lies from one of the pointers into the array: each reaches 2 * kNearNumbers of them

@@ -1,8 +1,9 @@
 #include "sinew/backend/value_steps.h"
 
 #include <algorithm>
-#include <map>
+#include <functional>
 #include <numeric>
+#include <utility>
 
 namespace sinew::backend {
 
@@ -60,24 +61,31 @@ std::uint32_t place(std::vector<Slot>& slots) {
 std::uint32_t share_slots(const ValueSteps& steps, std::span<const SlotUse> uses,
                           std::span<std::uint32_t> slot) {
   std::vector<Slot> slots;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> free;  // by width
-  std::vector<std::vector<std::uint32_t>> ending(steps.size());
+  std::vector<std::vector<std::uint32_t>> free;  // by width; the lowest is on top of each heap
+  // Values that are read last in each step: the first of them, and the one after each.
+  std::vector<std::uint32_t> ending(steps.size(), kNoSlot), next(slot.size());
   for (std::uint32_t step = 0; step < steps.size(); ++step) {
     for (const std::uint32_t value : steps.defines(step)) {
       if (slot[value] == kNoSlot) continue;
       const std::uint32_t width = steps.width(value);
+      if (free.size() <= width) free.resize(width + 1);
       std::vector<std::uint32_t>& unused = free[width];
       if (unused.empty()) {
-        unused.push_back(static_cast<std::uint32_t>(slots.size()));
+        slot[value] = static_cast<std::uint32_t>(slots.size());
         slots.push_back({width, 0, 0});
+      } else {
+        std::pop_heap(unused.begin(), unused.end(), std::greater());
+        slot[value] = unused.back();
+        unused.pop_back();
       }
-      const auto lowest = std::min_element(unused.begin(), unused.end());
-      slot[value] = *lowest;
-      unused.erase(lowest);
       slots[slot[value]].uses += uses[value].count;
-      ending[uses[value].last].push_back(value);
+      next[value] = std::exchange(ending[uses[value].last], value);
     }
-    for (const std::uint32_t value : ending[step]) free[steps.width(value)].push_back(slot[value]);
+    for (std::uint32_t value = ending[step]; value != kNoSlot; value = next[value]) {
+      std::vector<std::uint32_t>& unused = free[steps.width(value)];
+      unused.push_back(slot[value]);
+      std::push_heap(unused.begin(), unused.end(), std::greater());
+    }
   }
   const std::uint32_t size = place(slots);
   for (std::uint32_t& of_value : slot) {

@@ -35,7 +35,8 @@ TEST(KeptValues, WhatIsReadLastMakesRoom) {
   const KeptValues kept =
       keep_values(steps(5, {{{}, 0}, {{}, 1}, {{}, 2}, {{1, 2}, 3}, {{0, 3}, 4}}), 2);
   EXPECT_EQ(kept.slot, (std::vector<std::uint32_t>{0, kNone, kNone, kNone, kNone}));
-  EXPECT_EQ(kept.leaving[2], (std::vector<std::uint32_t>{0}));
+  const auto leaving = kept.leaving(2);
+  EXPECT_EQ(std::vector(leaving.begin(), leaving.end()), (std::vector<std::uint32_t>{0}));
   EXPECT_EQ(kept.size, 1u);
 }
 
