@@ -23,10 +23,13 @@ std::vector<backend::GeneratedCode> generate_each(Models& models, const ModelOpt
       own.name = function_name(prefix, question);
       own.source = describe(files, question);
       own.one_thread = threads == 1;
-      pending.push_back(
-          workers.add([program = program_of(models, files, question, own.name), own]() mutable {
-            return backend::generate_c(std::move(program), own);
-          }));
+      LaterProgram program = later_program_of(models, files, question, own.name);
+      const std::size_t size = program.size();
+      pending.push_back(workers.add(
+          [program = std::move(program), own]() mutable {
+            return backend::generate_c(std::move(program).take(), own);
+          },
+          size));
     } catch (const Error&) {
       refused = std::current_exception();
       break;

@@ -16,8 +16,8 @@ namespace sinew::cli {
 // `options` hold for all of them but for the name and the source. What is thrown is what the first
 // question that cannot be answered is refused with.
 //
-// The graph belongs to the calling thread: it synthesises and lowers one question after the other,
-// while others already optimise and write those before it.
+// The graph belongs to the calling thread: it synthesises for one question after the other, while
+// others already lower, optimise and write those before it, the largest that is there first.
 std::vector<backend::GeneratedCode> generate_each(
     Models& models, const ModelOptions& files, const std::vector<QueryOptions>& questions,
     const std::string& prefix, const backend::COptions& options,

@@ -231,6 +231,21 @@ graph::Id algorithm_of(Models& models, const synthesis::Query& asked, std::vecto
 
 program::Program program_of(Models& models, const ModelOptions& files, const QueryOptions& options,
                             const std::string& name) {
+  return later_program_of(models, files, options, name).take();
+}
+
+program::Program LaterProgram::take() && {
+  if (model_) program_ = program::lower(*model_, *terms_, name_);
+  model_.reset();
+  return std::move(program_);
+}
+
+std::size_t LaterProgram::size() const {
+  return model_ ? model_->closures.size() : program_.closures.size();
+}
+
+LaterProgram later_program_of(Models& models, const ModelOptions& files,
+                              const QueryOptions& options, const std::string& name) {
   if (files.files.size() == 1 && is_program(files.files.front())) {
     if (names_query(options)) {
       fail(files.files.front() + " answers one query already", "leave out --solver and --query");
@@ -239,16 +254,22 @@ program::Program program_of(Models& models, const ModelOptions& files, const Que
     program::Program program = program::from_json(read_input(file), file);
     if (!name.empty()) program.name = name;
     program::add_derivatives(program, options.derivatives);
-    return program;
+    return LaterProgram(std::move(program));
   }
   const graph::Id algorithm =
       algorithm_of(models, files, options, nullptr, synthesis::AlgorithmGraph::kIfNeeded);
   std::string program_name = name;
   if (program_name.empty()) program_name = options.solver.empty() ? "program" : options.solver;
   std::replace(program_name.begin(), program_name.end(), ',', '_');
+  // Derivatives can be refused, which belongs to the synthesis' part.
+  if (models.made && models.made->model.id == algorithm && options.derivatives.empty()) {
+    algorithm::Algorithm model = std::move(models.made->model);
+    models.made.reset();
+    return {std::move(model), models.store.terms(), program_name};
+  }
   program::Program program = lowered(models, algorithm, program_name);
   program::add_derivatives(program, options.derivatives);
-  return program;
+  return LaterProgram(std::move(program));
 }
 
 std::vector<QueryOptions> each_solver(const QueryOptions& query) {

@@ -75,6 +75,26 @@ synthesis::Query query_of(std::vector<synthesis::Query> queries, const QueryOpti
 program::Program program_of(Models& models, const ModelOptions& files, const QueryOptions& query,
                             const std::string& name);
 
+// The same in two parts: the synthesis, which adds to the graph, is done, and the lowering is left
+// to whoever wants it, on any thread, while the models are there and may be added to.
+class LaterProgram {
+ public:
+  explicit LaterProgram(program::Program program) : program_(std::move(program)) {}
+  LaterProgram(algorithm::Algorithm model, const graph::Terms& terms, std::string name)
+      : model_(std::move(model)), terms_(&terms), name_(std::move(name)) {}
+
+  program::Program take() &&;
+  std::size_t size() const;  // closures
+
+ private:
+  program::Program program_;
+  std::optional<algorithm::Algorithm> model_;  // of which the program is made
+  const graph::Terms* terms_ = nullptr;
+  std::string name_;
+};
+LaterProgram later_program_of(Models& models, const ModelOptions& files, const QueryOptions& query,
+                              const std::string& name);
+
 // Each solver that the options name as a question of its own, with all that they say besides.
 // Throws Error where they name none, or one twice.
 std::vector<QueryOptions> each_solver(const QueryOptions& query);

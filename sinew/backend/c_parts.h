@@ -66,10 +66,9 @@ RenderedSource render_with_blocks(
     std::string_view path, Fields fields,
     const std::vector<std::pair<std::string, const CodeBlock*>>& blocks);
 
-// The name, sizes, banner and lists of inputs, outputs and states.
+// The name, sizes and banner.
 Fields common_fields(const program::ScalarProgram& scalar, const program::Interface& interface,
-                     const std::vector<std::string>& identifiers, const COptions& options,
-                     const GeneratedCode& counts);
+                     const COptions& options, const GeneratedCode& counts);
 
 // A distinct C identifier for each variable of the program.
 std::vector<std::string> variable_identifiers(const program::Program& program);

@@ -27,27 +27,31 @@ std::string braced(const std::vector<double>& values) {
   return "{" + numbers + "}";
 }
 
+// What a header says of inputs, outputs or states; for C++ also how their members are declared.
 FieldList slots(const program::Program& program, const std::vector<std::string>& identifiers,
-                const std::vector<program::Slot>& slots) {
+                const std::vector<program::Slot>& slots, Language language) {
   FieldList list;
+  list.reserve(slots.size());
   for (const program::Slot& slot : slots) {
     const program::Variable& v = program.variables[slot.variable];
     Fields item;
     item.text("name", c_comment(v.name));
-    item.text("identifier", identifiers[slot.variable]);
-    item.text("type", v.size == 1 ? "Number" : fmt::format("std::array<Number, {}>", v.size));
-    item.text("initial", braced(v.value));
+    if (language == Language::kCpp) {
+      item.text("identifier", identifiers[slot.variable]);
+      item.text("type", v.size == 1 ? "Number" : fmt::format("std::array<Number, {}>", v.size));
+      item.text("initial", braced(v.value));
+    }
     item.text("range", range(slot.offset, v.size));
-    item.number("offset", slot.offset);
-    item.number("size", v.size);
     if (v.unit.empty()) {
       item.section("unit", false);
     } else {
       item.text("unit", c_comment(v.unit));
     }
-    std::string first;
-    for (const double value : v.value) first += (first.empty() ? "" : " ") + c_number(value);
-    item.text("first", first);
+    if (v.role == program::Role::kState) {
+      std::string first;
+      for (const double value : v.value) first += (first.empty() ? "" : " ") + c_number(value);
+      item.text("first", first);
+    }
     list.push_back(std::move(item));
   }
   return list;
@@ -163,9 +167,7 @@ RenderedSource render_with_blocks(
 }
 
 Fields common_fields(const program::ScalarProgram& scalar, const program::Interface& interface,
-                     const std::vector<std::string>& identifiers, const COptions& options,
-                     const GeneratedCode& counts) {
-  const program::Program& program = scalar.program;
+                     const COptions& options, const GeneratedCode& counts) {
   Fields fields;
   fields.text("name", options.name);
   fields.text("source_file", options.name + source_extension(options.language));
@@ -193,26 +195,25 @@ Fields common_fields(const program::ScalarProgram& scalar, const program::Interf
   fields.section("has_inputs", interface.in_size > 0);
   fields.section("has_outputs", interface.out_size > 0);
   fields.section("stateful", interface.state_size > 0);
-  fields.list("inputs", slots(program, identifiers, interface.inputs));
-  fields.list("outputs", slots(program, identifiers, interface.outputs));
-  fields.list("states", slots(program, identifiers, interface.states));
   return fields;
 }
 
 std::vector<std::string> variable_identifiers(const program::Program& program) {
   std::vector<std::string> names;
-  std::unordered_set<std::string> taken = {"in", "out",  "state", "n",      "i",
-                                           "k",  "in_k", "out_k", "state_k"};
+  // Views of the names, which stay where they are.
+  std::unordered_set<std::string_view> taken = {"in", "out",  "state", "n",      "i",
+                                                "k",  "in_k", "out_k", "state_k"};
   names.reserve(program.variables.size());
   taken.reserve(taken.size() + program.variables.size());
   for (const program::Variable& v : program.variables) {
-    std::string base = c_identifier(v.name);
-    if (!is_c_function_name(base)) base = "v_" + base;  // of which nothing is reserved
-    std::string name = base;
+    std::string& name = names.emplace_back(c_identifier(v.name));
+    if (!is_c_function_name(name)) name.insert(0, "v_");  // of which nothing is reserved
+    const std::size_t base = name.size();
     for (int again = 2; !taken.insert(name).second; ++again) {
-      name = fmt::format("{}_{}", base, again);
+      name.resize(base);
+      name += '_';
+      name += Digits(again);
     }
-    names.push_back(name);
   }
   return names;
 }
@@ -284,18 +285,26 @@ GeneratedCode generate_c(program::Program program, const COptions& asked) {
   if (limbs && !are_worth_it(*limbs, code.operations, options)) limbs.reset();
   if (limbs) code.with_limbs = limbs->operations();
   const std::vector<std::string> identifiers = variable_identifiers(scalar.program);
-  const Fields common = common_fields(scalar, interface, identifiers, options, code);
+  const Fields common = common_fields(scalar, interface, options, code);
   RenderedSource source =
       options.style == Style::kFlat
           ? flat_source(scalar, interface, identifiers, common, options, limbs ? &*limbs : nullptr)
           : readable_source(scalar.program, interface, identifiers, common);
-  code.files.push_back({options.name + ".h",
-                        render(cuda ? "c/header.cuda.mustache" : "c/header.h.mustache", common)});
+  Fields of_header = common;
+  const auto list = [&](const char* name, const std::vector<program::Slot>& of) {
+    of_header.list(name, slots(scalar.program, identifiers, of, options.language));
+  };
+  list("inputs", interface.inputs);
+  list("outputs", interface.outputs);
+  list("states", interface.states);
+  code.files.push_back(
+      {options.name + ".h",
+       render(cuda ? "c/header.cuda.mustache" : "c/header.h.mustache", of_header)});
   code.files.push_back({options.name + source_extension(options.language), std::move(source.text)});
   code.files.push_back(
       {options.name + ".json", sidecar(scalar, interface, options, code, source.origins)});
   if (options.language == Language::kCpp) {
-    code.files.push_back({options.name + ".hpp", render("c/interface.hpp.mustache", common)});
+    code.files.push_back({options.name + ".hpp", render("c/interface.hpp.mustache", of_header)});
   }
   return code;
 }

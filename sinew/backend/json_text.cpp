@@ -24,6 +24,30 @@ bool eight_are_plain(const char* at) {
   return (found & kHigh) == 0;
 }
 
+void append_escaped(std::string& to, std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::size_t written = 0;  // what needs no escape is appended at once
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    while (k + sizeof(std::uint64_t) <= text.size() && eight_are_plain(text.data() + k))
+      k += sizeof(std::uint64_t);
+    if (k == text.size()) break;
+    const char c = text[k];
+    const bool is_control = static_cast<unsigned char>(c) < 0x20;
+    if (c != '"' && c != '\\' && !is_control) continue;
+    to.append(text, written, k - written);
+    written = k + 1;
+    if (is_control) {
+      to += "\\u00";
+      to += kDigits[static_cast<unsigned char>(c) >> 4U];
+      to += kDigits[static_cast<unsigned char>(c) & 15U];
+    } else {
+      to += '\\';
+      to += c;
+    }
+  }
+  to.append(text, written);
+}
+
 }  // namespace
 
 // A comma, where something stands in front at the same level.
@@ -53,35 +77,27 @@ JsonText& JsonText::end_array() {
 }
 
 JsonText& JsonText::key(std::string_view name) {
-  value(name);
-  text_ += ':';
+  separate();
+  text_ += '"';
+  text_ += name;
+  text_ += "\":";
+  return *this;
+}
+
+JsonText& JsonText::pair(std::uint64_t a, std::uint64_t b) {
+  separate();
+  text_ += '[';
+  append_digits(a);
+  text_ += ',';
+  append_digits(b);
+  text_ += ']';
   return *this;
 }
 
 JsonText& JsonText::value(std::string_view text) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
   separate();
   text_ += '"';
-  std::size_t written = 0;  // what needs no escape is appended at once
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    while (k + sizeof(std::uint64_t) <= text.size() && eight_are_plain(text.data() + k))
-      k += sizeof(std::uint64_t);
-    if (k == text.size()) break;
-    const char c = text[k];
-    const bool is_control = static_cast<unsigned char>(c) < 0x20;
-    if (c != '"' && c != '\\' && !is_control) continue;
-    text_.append(text, written, k - written);
-    written = k + 1;
-    if (is_control) {
-      text_ += "\\u00";
-      text_ += kDigits[static_cast<unsigned char>(c) >> 4U];
-      text_ += kDigits[static_cast<unsigned char>(c) & 15U];
-    } else {
-      text_ += '\\';
-      text_ += c;
-    }
-  }
-  text_.append(text, written);
+  append_escaped(text_, text);
   text_ += '"';
   return *this;
 }

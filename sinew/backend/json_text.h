@@ -5,6 +5,8 @@
 #include <array>
 #include <charconv>
 #include <concepts>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +20,7 @@ class JsonText {
   JsonText& end_object();
   JsonText& begin_array();
   JsonText& end_array();
-  JsonText& key(std::string_view name);
+  JsonText& key(std::string_view name);  // which needs no escapes
 
   JsonText& value(std::string_view text);
   JsonText& value(const char* text) { return value(std::string_view(text)); }
@@ -26,11 +28,11 @@ class JsonText {
   template <std::integral Integer>
   JsonText& value(Integer number) {
     separate();
-    std::array<char, 24> digits;  // more than those of any integer
-    text_.append(digits.data(),
-                 std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+    append_digits(number);
     return *this;
   }
+  // [a,b]
+  JsonText& pair(std::uint64_t a, std::uint64_t b);
   template <typename Value>
   JsonText& value(const std::vector<Value>& values) {
     begin_array();
@@ -43,10 +45,18 @@ class JsonText {
     return key(name).value(its_value);
   }
 
+  // Of so many bytes to come, which need not be all.
+  void reserve(std::size_t bytes) { text_.reserve(bytes); }
   std::string take() { return std::move(text_); }
 
  private:
   void separate();
+  template <std::integral Integer>
+  void append_digits(Integer number) {
+    std::array<char, 24> digits;  // more than those of any integer
+    text_.append(digits.data(),
+                 std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+  }
 
   std::string text_;
 };

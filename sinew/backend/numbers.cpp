@@ -34,7 +34,9 @@ std::string upper_case(std::string text) {
 }
 
 std::string c_identifier(std::string_view text) {
-  std::string result(text.empty() || is_digit(text.front()) ? "_" : "");
+  std::string result;
+  result.reserve(text.size() + 4);  // what callers put in front or behind, too
+  if (text.empty() || is_digit(text.front())) result = "_";
   const std::size_t first = result.size();
   result += text;
   for (std::size_t k = first; k < result.size(); ++k) {

@@ -1,6 +1,7 @@
 #include "sinew/backend/reserved_names.h"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <unordered_set>
 
@@ -137,8 +138,14 @@ constexpr std::string_view kFunctions[] = {
     "vfprintf",    "vprintf",   "vscanf",   "vsnprintf",  "vsprintf",     "wait",
     "waitpid",     "wcslen",    "wctomb",   "write"};
 
-std::unordered_set<std::string> all_names() {
-  std::unordered_set<std::string> names;
+// Looked up without a copy of the name.
+struct Hash : std::hash<std::string_view> {
+  using is_transparent = void;
+};
+using Names = std::unordered_set<std::string, Hash, std::equal_to<>>;
+
+Names all_names() {
+  Names names;
   for (const std::string_view name : kMathematics)
     for (const char* suffix : {"", "f", "l"}) names.insert(std::string(name) + suffix);
   const auto add = [&](const auto& table) {
@@ -161,10 +168,10 @@ bool is_reserved_in_c(std::string_view name) {
   if (name.size() > 1 && name[0] == '_' && (name[1] == '_' || is_capital(name[1]))) return true;
   if (name.starts_with("M_")) return true;
   // Most names of generated code are longer than all of these.
-  static const std::unordered_set<std::string> names = all_names();
+  static const Names names = all_names();
   static const std::size_t longest =
       std::ranges::max_element(names, {}, &std::string::size)->size();
-  return name.size() <= longest && names.contains(std::string(name));
+  return name.size() <= longest && names.contains(name);
 }
 
 }  // namespace sinew::backend

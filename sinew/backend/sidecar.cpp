@@ -66,6 +66,8 @@ std::string sidecar(const program::ScalarProgram& scalar, const program::Interfa
                     const std::vector<LineOrigin>& origins) {
   const program::Program& program = scalar.program;
   JsonText json;
+  constexpr std::size_t kOfAClosure = 320, kOfALine = 12;  // bytes, about
+  json.reserve(program.closures.size() * kOfAClosure + origins.size() * kOfALine);
   json.begin_object().member("sinew-generated", 1).member("name", options.name);
   json.member("style", options.style == Style::kFlat ? "flat" : "readable");
   json.member("language", language_name(options.language));
@@ -97,8 +99,7 @@ std::string sidecar(const program::ScalarProgram& scalar, const program::Interfa
     json.member("step", c.step).member("about", c.about).end_object();
   }
   json.end_array().key("lines").begin_array();
-  for (const LineOrigin& origin : origins)
-    json.begin_array().value(origin.line).value(origin.closure).end_array();
+  for (const LineOrigin& origin : origins) json.pair(origin.line, origin.closure);
   json.end_array();
   if (counts.with_limbs) write_operations(json, "operations-with-limbs", *counts.with_limbs);
   if (!options.partial.empty()) {

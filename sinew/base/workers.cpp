@@ -29,13 +29,14 @@ void Workers::put(Piece piece) {
   }
 }
 
-// What is waiting first, with the lock given up meanwhile.
-void Workers::do_first(std::unique_lock<std::mutex>& lock) {
-  Piece piece = std::move(waiting_.front());
-  waiting_.pop_front();
+// With the lock given up meanwhile.
+void Workers::do_next(std::unique_lock<std::mutex>& lock) {
+  const auto next = std::ranges::max_element(waiting_, {}, &Piece::size);
+  Piece piece = std::move(*next);
+  waiting_.erase(next);
   lock.unlock();
-  piece();
-  piece = nullptr;
+  piece.work();
+  piece.work = nullptr;
   lock.lock();
 }
 
@@ -46,13 +47,13 @@ void Workers::work() {
     changed_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
     --idle_;
     if (ends_) return;
-    do_first(lock);
+    do_next(lock);
   }
 }
 
 void Workers::help() {
   std::unique_lock lock(mutex_);
-  while (!waiting_.empty()) do_first(lock);
+  while (!waiting_.empty()) do_next(lock);
 }
 
 }  // namespace sinew

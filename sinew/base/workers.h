@@ -9,7 +9,7 @@
 #pragma once
 
 #include <condition_variable>
-#include <deque>
+#include <cstddef>
 #include <functional>
 #include <future>
 #include <memory>
@@ -21,7 +21,8 @@
 
 namespace sinew {
 
-// Pieces begin in the order in which they were added. They may not wait for each other.
+// Of the pieces that wait, the largest begins first, of equal ones the one that was added first.
+// They may not wait for each other.
 class Workers {
  public:
   // At least 1, at most kMost.
@@ -36,12 +37,13 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
+  // `size` compares pieces: of several, the long ones should not be left to the end.
   template <typename Do>
-  std::future<std::invoke_result_t<Do&>> add(Do work) {
+  std::future<std::invoke_result_t<Do&>> add(Do work, std::size_t size = 0) {
     // std::function has to be copied; what it calls need not be.
     auto task = std::make_shared<std::packaged_task<std::invoke_result_t<Do&>()>>(std::move(work));
     auto result = task->get_future();
-    put([task = std::move(task)] { (*task)(); });
+    put({[task = std::move(task)] { (*task)(); }, size});
     return result;
   }
 
@@ -49,15 +51,18 @@ class Workers {
   void help();
 
  private:
-  using Piece = std::function<void()>;
+  struct Piece {
+    std::function<void()> work;
+    std::size_t size;
+  };
 
   void put(Piece piece);
-  void do_first(std::unique_lock<std::mutex>& lock);
+  void do_next(std::unique_lock<std::mutex>& lock);
   void work();
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Piece> waiting_;
+  std::vector<Piece> waiting_;
   unsigned most_;      // threads beside the calling one
   unsigned idle_ = 0;  // of them
   bool ends_ = false;

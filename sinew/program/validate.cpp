@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <span>
-#include <unordered_map>
+#include <unordered_set>
 
 #include "sinew/program/kernels.h"
 
@@ -31,8 +31,9 @@ class Validator {
   void run() {
     for (const Variable& variable : program_.variables) check_variable(variable);
     check_names();
+    kernels_.resize(program_.closures.size());
     std::vector<bool> sound(program_.closures.size());
-    for (std::size_t i = 0; i < sound.size(); ++i) sound[i] = check_closure(program_.closures[i]);
+    for (std::size_t i = 0; i < sound.size(); ++i) sound[i] = check_closure(i);
     for (const Derivative& derivative : program_.derivatives) check_derivative(derivative);
     check_schedule(sound);
     check_outputs();
@@ -74,9 +75,10 @@ class Validator {
   }
 
   void check_names() {
-    std::unordered_map<std::string_view, const Variable*> seen;
+    std::unordered_set<std::string_view> seen;
+    seen.reserve(program_.variables.size());
     for (const Variable& v : program_.variables) {
-      if (!seen.emplace(v.name, &v).second) {
+      if (!seen.insert(v.name).second) {
         fault(v.iri, fmt::format("a second variable is named '{}'", v.name),
               "names are unique in a program");
       }
@@ -89,8 +91,9 @@ class Validator {
   }
 
   // Whether its operator and arguments fit, so that its reads and writes can be followed.
-  bool check_closure(const Closure& closure) {
-    const Kernel* kernel = find_kernel(closure.operation);
+  bool check_closure(std::size_t at) {
+    const Closure& closure = program_.closures[at];
+    const Kernel* const kernel = kernels_[at] = find_kernel(closure.operation);
     if (kernel == nullptr) {
       fault(closure.iri, fmt::format("unknown operator '{}'", closure.operation),
             "use an operator of the catalogue");
@@ -105,7 +108,8 @@ class Validator {
       return false;
     }
     bool sound = true;
-    std::vector<std::uint32_t> sizes;  // of the arguments before
+    std::vector<std::uint32_t>& sizes = sizes_;  // of the arguments before
+    sizes.clear();
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t index = closure.arguments[i];
       if (index >= program_.variables.size()) {
@@ -184,7 +188,7 @@ class Validator {
   }
 
   void follow(std::uint32_t index, const Closure& closure) {
-    const Kernel& kernel = *find_kernel(closure.operation);
+    const Kernel& kernel = *kernels_[index];
     const std::size_t count = closure.arguments.size();
     for (std::size_t i = 0; i < count; ++i) {
       if (!kernel.port(i, count).output) check_read(closure, closure.arguments[i]);
@@ -213,7 +217,7 @@ class Validator {
       return;
     }
     for (std::size_t i = 0; i + 1 < closure.arguments.size(); ++i) {
-      const bool input = !find_kernel(closure.operation)->port(i, closure.arguments.size()).output;
+      const bool input = !kernels_[index]->port(i, closure.arguments.size()).output;
       if (input && closure.arguments[i] == variable) {
         fault(closure.iri,
               fmt::format("'{}' both reads and writes '{}' <{}>", closure.operation, v.name, v.iri),
@@ -247,8 +251,10 @@ class Validator {
 
   const Program& program_;
   Report& report_;
-  std::vector<std::uint32_t> writer_;  // closure that has written each variable so far
-  std::vector<bool> is_entry_;         // whether each variable is an entry of a derivative
+  std::vector<std::uint32_t> writer_;   // closure that has written each variable so far
+  std::vector<const Kernel*> kernels_;  // of the closures
+  std::vector<std::uint32_t> sizes_;    // of the arguments of the closure that is looked at
+  std::vector<bool> is_entry_;          // whether each variable is an entry of a derivative
 };
 
 }  // namespace

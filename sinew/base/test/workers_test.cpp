@@ -31,6 +31,22 @@ TEST(Workers, OfOneThreadAreTheCallerAlone) {
   EXPECT_EQ(by.get(), std::this_thread::get_id());
 }
 
+TEST(Workers, BeginWithTheLargestOfThoseThatWait) {
+  Workers workers(1);
+  std::string order;
+  std::vector<std::future<void>> results;
+  const auto add = [&](char name, std::size_t size) {
+    results.push_back(workers.add([&order, name] { order += name; }, size));
+  };
+  add('a', 3);
+  add('b', 7);
+  add('c', 0);
+  add('d', 7);
+  add('e', 3);
+  workers.help();
+  EXPECT_EQ(order, "bdaec");
+}
+
 TEST(Workers, WorkBesideTheCaller) {
   Workers workers(2);
   // Without help, another thread has to do it.
