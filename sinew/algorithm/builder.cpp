@@ -8,6 +8,13 @@ namespace sinew::algorithm {
 
 using graph::Id;
 
+namespace {
+
+// Blocks, and closures, of an algorithm of some size: those of an arm's inverse dynamics.
+constexpr std::size_t kExpected = 256;
+
+}  // namespace
+
 Builder::Builder(graph::Store& store, graph::Transaction& transaction, Id algorithm,
                  BuilderWrites writes)
     : terms_(store.terms()), transaction_(transaction), names_(terms_), writes_(writes) {
@@ -25,6 +32,11 @@ Builder::Builder(graph::Store& store, graph::Transaction& transaction, Id algori
                         {},
                         {}});
   if (writes_ == BuilderWrites::kGraph) add(algorithm, names_.type, names_.algorithm);
+  algorithm_.blocks.reserve(kExpected);
+  algorithm_.closures.reserve(kExpected);
+  by_slot_.reserve(kExpected);
+  closures_.reserve(kExpected);
+  name_uses_.reserve(kExpected);
 }
 
 void Builder::add(Id subject, Id predicate, Id object) {
@@ -128,11 +140,14 @@ void Builder::closure_with_counts(std::string_view operation, std::vector<std::u
 
 void Builder::append(const Operator& op, std::vector<std::uint32_t> arguments,
                      std::vector<std::uint32_t> counts, const Cause& cause) {
-  std::vector<Id> parts = {algorithm_.id};
+  std::vector<Id>& parts = parts_;
+  parts.assign(1, algorithm_.id);
   for (const std::uint32_t argument : arguments) parts.push_back(algorithm_.blocks[argument].id);
   Closure closure;
   closure.op = &op;
-  closure.id = terms_.derived(terms_.iri(op.iri), parts);
+  Id& role = operator_terms_[&op];
+  if (!role) role = terms_.iri(op.iri);
+  closure.id = terms_.derived(role, parts);
   closure.arguments = std::move(arguments);
   closure.counts = std::move(counts);
   closure.step = cause.step;
@@ -185,7 +200,7 @@ void Builder::rename(std::uint32_t block, std::string name) {
 void Builder::finish() {
   if (writes_ == BuilderWrites::kGraph) write_end();
   Report report;
-  check_algorithm(terms_, algorithm_, report);
+  check_together(terms_, algorithm_, report);  // the others were checked when they were made
   report.throw_if_errors();
 }
 

@@ -117,6 +117,8 @@ class Builder {
   std::unordered_map<graph::Id, std::uint32_t> closures_;
   std::unordered_map<std::string, std::uint32_t> name_uses_;
   std::unordered_map<std::string_view, std::vector<graph::Id>> port_terms_;  // by operator
+  std::unordered_map<const Operator*, graph::Id> operator_terms_;
+  std::vector<graph::Id> parts_;  // of the closure that is being made
   std::uint32_t inputs_ = 0, outputs_ = 0;
 };
 

@@ -154,6 +154,20 @@ void check_order(const Terms& terms, const Algorithm& algorithm, Report& report)
   }
 }
 
+class BlockNames {
+ public:
+  explicit BlockNames(const Algorithm& algorithm) { names_.reserve(algorithm.blocks.size()); }
+
+  void check(const Terms& terms, const Block& block, Report& report) {
+    if (!names_.insert(block.name).second)
+      report.error({}, text(terms, block.id), "a second data block named " + block.name,
+                   "names are unique in an algorithm");
+  }
+
+ private:
+  std::unordered_set<std::string_view> names_;
+};
+
 }  // namespace
 
 void check_block(const Terms& terms, const Block& block, Report& report) {
@@ -228,13 +242,17 @@ void check_closure(const Terms& terms, const Algorithm& algorithm, const Closure
     check_units(terms, algorithm, closure, rule, report);
 }
 
+void check_together(const Terms& terms, const Algorithm& algorithm, Report& report) {
+  BlockNames names(algorithm);
+  for (const Block& block : algorithm.blocks) names.check(terms, block, report);
+  check_order(terms, algorithm, report);
+}
+
 void check_algorithm(const Terms& terms, const Algorithm& algorithm, Report& report) {
-  std::unordered_set<std::string_view> names;
+  BlockNames names(algorithm);
   for (const Block& block : algorithm.blocks) {
     check_block(terms, block, report);
-    if (!names.insert(block.name).second)
-      report.error({}, text(terms, block.id), "a second data block named " + block.name,
-                   "names are unique in an algorithm");
+    names.check(terms, block, report);
   }
   for (const Closure& closure : algorithm.closures)
     check_closure(terms, algorithm, closure, report);

@@ -16,6 +16,9 @@ namespace sinew::algorithm {
 void check_block(const graph::Terms& terms, const Block& block, Report& report);
 void check_closure(const graph::Terms& terms, const Algorithm& algorithm, const Closure& closure,
                    Report& report);
+// What does not hold of each block and closure by itself.
+void check_together(const graph::Terms& terms, const Algorithm& algorithm, Report& report);
+// All of it.
 void check_algorithm(const graph::Terms& terms, const Algorithm& algorithm, Report& report);
 
 }  // namespace sinew::algorithm

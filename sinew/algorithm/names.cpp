@@ -52,8 +52,10 @@ Names::Names(graph::Terms& terms) {
 }
 
 std::string_view short_name(std::string_view iri) {
-  const std::size_t at = iri.find_last_of("#/:");
-  return at == std::string_view::npos || at + 1 == iri.size() ? iri : iri.substr(at + 1);
+  std::size_t begin = iri.size();
+  while (begin > 0 && iri[begin - 1] != '#' && iri[begin - 1] != '/' && iri[begin - 1] != ':')
+    --begin;
+  return begin == iri.size() ? iri : iri.substr(begin);
 }
 
 bool is_called(std::string_view iri, std::string_view name) {

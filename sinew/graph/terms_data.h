@@ -1,6 +1,7 @@
 // How Terms keeps its terms; private to terms*.cpp.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -8,12 +9,14 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "sinew/graph/arena.h"
 #include "sinew/graph/numeric.h"
 #include "sinew/graph/slot_table.h"
 #include "sinew/graph/stable_array.h"
 #include "sinew/graph/terms.h"
+#include "sinew/graph/uuid.h"
 
 namespace sinew::graph {
 
@@ -52,6 +55,16 @@ struct Terms::Data {
   // Making texts on demand, from whichever thread.
   std::mutex demand;
   Arena demand_arena;
+  struct NameBegin {  // of the names of derived nodes: a role, and the first part unless it is
+                      // alone
+    bool known = false;
+    std::uint32_t role = 0, first = 0;
+    bool alone = false;
+    Sha1 hash;
+  };
+  std::array<NameBegin, 64> name_begins;
+  std::string name_rest;                     // of the name that is being hashed
+  std::vector<std::uint32_t> names_waiting;  // derived nodes whose parts get their texts first
   std::unordered_map<std::string_view, std::uint32_t> derived_by_text;
   std::uint32_t derived_named = 0;               // how many of `derived` are in derived_by_text
   std::atomic<std::uint32_t> prefixed_iris = 0;  // plain IRIs that start like a derived one
@@ -65,7 +78,8 @@ struct Terms::Data {
                           std::uint32_t* at = nullptr) const;
   // With `demand` held.
   std::string_view make_text(std::uint32_t id);
-  std::string name_of(const DerivedEntry& entry) const;
+  void append_to_name(std::uint32_t id, std::string& name) const;
+  Uuid uuid_of(const DerivedEntry& made_of);
   std::uint32_t find_derived_text(std::string_view text);
 };
 

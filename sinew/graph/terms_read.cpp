@@ -1,7 +1,6 @@
 // Reading terms: kinds, texts (made on demand for fresh and derived nodes), values, N-Triples form.
 #include <fmt/format.h>
 
-#include <cstring>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -132,46 +131,61 @@ std::string Terms::to_string(Id id) const {
 // ---- texts on demand ----
 
 // The role and the parts, each as its kind, the sizes of its texts, and its texts: unambiguous.
-std::string Terms::Data::name_of(const DerivedEntry& made_of) const {
-  std::string name;
-  name.reserve(64 * (made_of.count + std::size_t{1}));
+void Terms::Data::append_to_name(std::uint32_t id, std::string& name) const {
+  const TermEntry& entry = entries[id];
+  const std::string_view text(entry.text, entry.size);
   const auto number = [&](std::size_t value) {
     const fmt::format_int digits(value);
     name.append(digits.data(), digits.size());
   };
-  const auto append = [&](std::uint32_t id) {
-    const TermEntry& entry = entries[id];
-    const std::string_view text(entry.text, entry.size);
-    if (id == 0) {
-      name += '-';
-    } else if (entry.kind == TermKind::kLiteral) {
-      const TermEntry& datatype = entries[entry.link];
-      name += 'L';
-      number(text.size());
-      name += ',';
-      number(datatype.size);
-      name += ',';
-      number(entry.language_size);
-      name += ':';
-      name += text;
-      name.append(datatype.text, datatype.size);
-      name.append(entry.text + entry.size, entry.language_size);
-    } else {
-      name += entry.kind == TermKind::kBlank ? 'B' : 'I';
-      number(text.size());
-      name += ':';
-      name += text;
-    }
-  };
-  append(made_of.role);
-  for (std::uint32_t i = 0; i < made_of.count; ++i) append(made_of.parts[i]);
-  return name;
+  if (id == 0) {
+    name += '-';
+  } else if (entry.kind == TermKind::kLiteral) {
+    const TermEntry& datatype = entries[entry.link];
+    name += 'L';
+    number(text.size());
+    name += ',';
+    number(datatype.size);
+    name += ',';
+    number(entry.language_size);
+    name += ':';
+    name += text;
+    name.append(datatype.text, datatype.size);
+    name.append(entry.text + entry.size, entry.language_size);
+  } else {
+    name += entry.kind == TermKind::kBlank ? 'B' : 'I';
+    number(text.size());
+    name += ':';
+    name += text;
+  }
+}
+
+// The namespace, the role and the first part are the same in many names, one after the other.
+Uuid Terms::Data::uuid_of(const DerivedEntry& made_of) {
+  const std::uint32_t first = made_of.count > 0 ? made_of.parts[0] : 0;
+  NameBegin& begin = name_begins[(made_of.role ^ first * 31U) % name_begins.size()];
+  std::string& name = name_rest;
+  if (!begin.known || begin.role != made_of.role || begin.first != first ||
+      begin.alone != (made_of.count == 0)) {
+    begin = {true, made_of.role, first, made_of.count == 0, {}};
+    const Uuid& space = derived_namespace();
+    name.assign(space.begin(), space.end());
+    append_to_name(made_of.role, name);
+    if (made_of.count > 0) append_to_name(first, name);
+    begin.hash.add(name);
+  }
+  name.clear();
+  for (std::uint32_t i = 1; i < made_of.count; ++i) append_to_name(made_of.parts[i], name);
+  Sha1 hash = begin.hash;
+  hash.add(name);
+  return name_based_uuid(hash.digest());
 }
 
 std::string_view Terms::Data::make_text(std::uint32_t id) {
   // A derived node's parts may be derived; they are made first, without recursion, because such
   // chains may be as long as the dictionary.
-  std::vector<std::uint32_t> waiting = {id};
+  std::vector<std::uint32_t>& waiting = names_waiting;
+  waiting.assign(1, id);
   while (!waiting.empty()) {
     const std::uint32_t current = waiting.back();
     TermEntry& entry = entries[current];
@@ -179,7 +193,7 @@ std::string_view Terms::Data::make_text(std::uint32_t id) {
       waiting.pop_back();
       continue;
     }
-    std::string text;
+    char* memory = nullptr;
     if (entry.kind == TermKind::kDerived) {
       const DerivedEntry& made_of = derived[entry.link];
       const std::size_t before = waiting.size();
@@ -189,14 +203,16 @@ std::string_view Terms::Data::make_text(std::uint32_t id) {
       }
       if (!load(entries[made_of.role].text)) waiting.push_back(made_of.role);
       if (waiting.size() > before) continue;
-      text = kDerivedPrefix;
-      text += sinew::graph::to_string(name_based_uuid(derived_namespace(), name_of(made_of)));
+      entry.size = kDerivedPrefix.size() + kUuidText;
+      memory = demand_arena.allocate(entry.size);
+      kDerivedPrefix.copy(memory, kDerivedPrefix.size());
+      write_text(uuid_of(made_of), memory + kDerivedPrefix.size());
     } else {
-      text = fmt::format("fresh{}", current);
+      const std::string text = fmt::format("fresh{}", current);
+      entry.size = static_cast<std::uint32_t>(text.size());
+      memory = demand_arena.allocate(text.size());
+      text.copy(memory, text.size());
     }
-    char* memory = demand_arena.allocate(text.size());
-    std::memcpy(memory, text.data(), text.size());
-    entry.size = static_cast<std::uint32_t>(text.size());
     store(entry.text, memory);
     waiting.pop_back();
   }

@@ -102,18 +102,16 @@ Absorb fastest_absorb() {
   return absorb;
 }
 
-Sha1Digest sha1_by(Absorb absorb_block, std::string_view message) {
-  std::array<std::uint32_t, 5> state = {0x67452301, 0xefcdab89, 0x98badcfe, 0x10325476, 0xc3d2e1f0};
-  const auto* bytes = reinterpret_cast<const std::uint8_t*>(message.data());
-  std::size_t left = message.size();
-  for (; left >= 64; left -= 64, bytes += 64) absorb_block(state, bytes);
-
+// `last`: those bytes of a message of this size that fill no block.
+Sha1Digest finished(Absorb absorb_block, std::array<std::uint32_t, 5> state,
+                    const std::uint8_t* last, std::uint64_t message_size) {
   // Padding: one bit, zeros, and the length in bits in the last 8 bytes.
   std::array<std::uint8_t, 128> tail = {};
-  if (left > 0) std::memcpy(tail.data(), bytes, left);
+  const std::size_t left = message_size % 64;
+  if (left > 0) std::memcpy(tail.data(), last, left);
   tail[left] = 0x80;
   const std::size_t size = left < 56 ? 64 : 128;
-  const std::uint64_t bits = std::uint64_t{message.size()} * 8;
+  const std::uint64_t bits = message_size * 8;
   for (std::size_t i = 0; i < 8; ++i) {
     tail[size - 1 - i] = static_cast<std::uint8_t>(bits >> (8 * i));
   }
@@ -126,6 +124,14 @@ Sha1Digest sha1_by(Absorb absorb_block, std::string_view message) {
   return digest;
 }
 
+Sha1Digest sha1_by(Absorb absorb_block, std::string_view message) {
+  std::array<std::uint32_t, 5> state = {0x67452301, 0xefcdab89, 0x98badcfe, 0x10325476, 0xc3d2e1f0};
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(message.data());
+  std::size_t left = message.size();
+  for (; left >= 64; left -= 64, bytes += 64) absorb_block(state, bytes);
+  return finished(absorb_block, state, bytes, message.size());
+}
+
 }  // namespace
 
 Sha1Digest sha1(std::string_view message) {
@@ -135,12 +141,38 @@ Sha1Digest sha1(std::string_view message) {
 
 Sha1Digest sha1_portable(std::string_view message) { return sha1_by(absorb, message); }
 
+void Sha1::add(std::string_view piece) {
+  static const Absorb fastest = fastest_absorb();
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(piece.data());
+  std::size_t left = piece.size();
+  const std::size_t begun = size_ % begun_.size();
+  size_ += left;
+  if (begun > 0) {
+    const std::size_t more = std::min(left, begun_.size() - begun);
+    std::copy_n(bytes, more, begun_.data() + begun);
+    bytes += more;
+    left -= more;
+    if (begun + more < begun_.size()) return;
+    fastest(state_, begun_.data());
+  }
+  for (; left >= begun_.size(); left -= begun_.size(), bytes += begun_.size())
+    fastest(state_, bytes);
+  std::copy_n(bytes, left, begun_.data());
+}
+
+Sha1Digest Sha1::digest() const {
+  static const Absorb fastest = fastest_absorb();
+  return finished(fastest, state_, begun_.data(), size_);
+}
+
 Uuid name_based_uuid(const Uuid& name_space, std::string_view name) {
-  std::string message;
-  message.reserve(name_space.size() + name.size());
-  message.append(name_space.begin(), name_space.end());
-  message += name;
-  const Sha1Digest digest = sha1(message);
+  Sha1 hash;
+  hash.add({reinterpret_cast<const char*>(name_space.data()), name_space.size()});
+  hash.add(name);
+  return name_based_uuid(hash.digest());
+}
+
+Uuid name_based_uuid(const Sha1Digest& digest) {
   Uuid uuid;
   std::copy_n(digest.begin(), uuid.size(), uuid.begin());
   uuid[6] = static_cast<std::uint8_t>((uuid[6] & 0x0f) | 0x50);  // version 5
@@ -148,15 +180,18 @@ Uuid name_based_uuid(const Uuid& name_space, std::string_view name) {
   return uuid;
 }
 
-std::string to_string(const Uuid& uuid) {
+void write_text(const Uuid& uuid, char* to) {
   constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text(36, '-');
-  std::size_t at = 0;
   for (std::size_t i = 0; i < uuid.size(); ++i) {
-    if (i == 4 || i == 6 || i == 8 || i == 10) ++at;
-    text[at++] = kDigits[uuid[i] >> 4];
-    text[at++] = kDigits[uuid[i] & 15];
+    if (i == 4 || i == 6 || i == 8 || i == 10) *to++ = '-';
+    *to++ = kDigits[uuid[i] >> 4];
+    *to++ = kDigits[uuid[i] & 15];
   }
+}
+
+std::string to_string(const Uuid& uuid) {
+  std::string text(kUuidText, '\0');
+  write_text(uuid, text.data());
   return text;
 }
 

@@ -117,8 +117,12 @@ std::string_view Context::label(Id joint) const {
 }
 
 algorithm::Cause Context::cause(Id about) const {
-  graph::Terms& terms = builder.terms();
-  return {step ? terms.iri(std::string(algorithm::kStepNamespace) + step->name) : Id{}, about};
+  if (step != named_step) {
+    graph::Terms& terms = builder.terms();
+    step_term = step ? terms.iri(std::string(algorithm::kStepNamespace) + step->name) : Id{};
+    named_step = step;
+  }
+  return {step_term, about};
 }
 
 void Context::closure(std::string_view operation, std::initializer_list<BlockIndex> arguments,

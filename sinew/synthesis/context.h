@@ -81,6 +81,8 @@ struct Context {
   graph::Transaction* transaction = nullptr;                    // the synthesis' own
   std::map<std::pair<std::string, Id>, BlockIndex> shown = {};  // by show_slots
   const Step* step = nullptr;                                   // whose pass is running
+  mutable const Step* named_step = nullptr;                     // whose IRI was asked for last
+  mutable Id step_term = {};                                    // that IRI
 
   // The block in a slot; Error naming the step, slot and element when it is empty.
   BlockIndex block(std::string_view slot, Id element) const;

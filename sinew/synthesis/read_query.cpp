@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 #include <span>
 #include <utility>
 
@@ -31,11 +32,10 @@ struct Document {
   graph::Places places;
 };
 
-void load(std::string_view text, const std::string& file, const catalogue::Catalogue& catalogue,
+void load(std::string_view text, const std::string& file, jsonld::Loader& loader,
           Document& document) {
   Report report;
   graph::Transaction transaction = document.store.begin();
-  jsonld::Loader loader(catalogue);
   loader.load(
       text, file, document.store.terms(), [&](const graph::Quad& quad) { transaction.add(quad); },
       &document.places, report);
@@ -309,10 +309,10 @@ namespace {
 
 // Loads a document, and reads its one node of this type by `read(view, node, places, report)`.
 template <typename Read>
-auto parse_one(std::string_view text, const std::string& file,
-               const catalogue::Catalogue& catalogue, std::string_view type, Read read) {
+auto parse_one(std::string_view text, const std::string& file, jsonld::Loader& loader,
+               std::string_view type, Read read) {
   Document document;
-  load(text, file, catalogue, document);
+  load(text, file, loader, document);
   Report report;
   const graph::View view = document.store.view();
   const Id node = Reader(view, &document.places, report).only_of_type(type, file);
@@ -322,16 +322,28 @@ auto parse_one(std::string_view text, const std::string& file,
   return result;
 }
 
+// For what comes with Sinew: the contexts that its files share are read once.
+template <typename Read>
+auto parse_own(std::string_view text, const std::string& file, std::string_view type, Read read) {
+  static std::mutex mutex;
+  static const catalogue::Catalogue catalogue;
+  static jsonld::Loader loader(catalogue);
+  const std::scoped_lock lock(mutex);
+  return parse_one(text, file, loader, type, read);
+}
+
 }  // namespace
 
 Query parse_query(std::string_view text, const std::string& file,
                   const catalogue::Catalogue& catalogue) {
-  return parse_one(text, file, catalogue, "Query", read_query);
+  jsonld::Loader loader(catalogue);
+  return parse_one(text, file, loader, "Query", read_query);
 }
 
 SweepConfiguration parse_sweeps(std::string_view text, const std::string& file,
                                 const catalogue::Catalogue& catalogue) {
-  return parse_one(text, file, catalogue, "SweepConfiguration", read_sweeps);
+  jsonld::Loader loader(catalogue);
+  return parse_one(text, file, loader, "SweepConfiguration", read_sweeps);
 }
 
 std::vector<std::string> named_queries() {
@@ -354,7 +366,7 @@ Query named_query(std::string_view name) {
                         fmt::format("one of {}", fmt::join(named_queries(), ", ")),
                         {},
                         {}});
-  return parse_query(text, "solvers/" + file, catalogue::Catalogue());
+  return parse_own(text, "solvers/" + file, "Query", read_query);
 }
 
 SweepConfiguration named_sweeps(std::string_view name) {
@@ -367,7 +379,7 @@ SweepConfiguration named_sweeps(std::string_view name) {
                         "one of solvers/sweeps/",
                         {},
                         {}});
-  return parse_sweeps(text, "solvers/" + file, catalogue::Catalogue());
+  return parse_own(text, "solvers/" + file, "SweepConfiguration", read_sweeps);
 }
 
 }  // namespace sinew::synthesis

@@ -22,35 +22,64 @@ struct Edge {
 class Traversal {
  public:
   Traversal(Context& context, std::span<const Sweep> sweeps) : context_(context), sweeps_(sweeps) {
-    for (const Sweep& sweep : sweeps)
+    for (const Sweep& sweep : sweeps) {
+      std::vector<Call>& calls = calls_.emplace_back();
       for (const Step* step : sweep.steps) {
-        for (const Visitor& visitor : step->visitors) {
-          visitor_expansion_[&visitor] =
-              cluster(visitor.expansion.empty() ? step->expansion : visitor.expansion);
-          for (const std::string& text : visitor.conditions) prepare(text);
-          if (!visitor.select.empty()) prepare(visitor.select);
-        }
+        const std::size_t first = calls.size();
+        for (const Visitor& visitor : step->visitors) calls.push_back(call_of(*step, visitor));
+        // On the way out a child is ready after its edge; on the way in, before it.
+        std::stable_partition(calls.begin() + static_cast<std::ptrdiff_t>(first), calls.end(),
+                              [&](const Call& call) {
+                                return (call.visitor->where == Where::kEdge) == is_outward(sweep);
+                              });
       }
+    }
   }
 
   TraversalCounts run() {
     expand();
-    for (const Sweep& sweep : sweeps_)
-      for (const auto pass : {&Visitor::configure, &Visitor::compute}) go(sweep, pass);
+    for (std::size_t i = 0; i < sweeps_.size(); ++i)
+      for (const auto pass : {&Visitor::configure, &Visitor::compute})
+        go(sweeps_[i], calls_[i], pass);
     return counts_;
   }
 
  private:
-  const Prepared& prepare(const std::string& text) {
-    Prepared& query = prepared_[text];
-    if (!query) query = rdf::sparql::prepare(context_.store, text, {"node", "parent", "algorithm"});
-    return query;
+  // A query that steps ask, and what it has answered.
+  struct Asked {
+    Prepared query;
+    std::unordered_map<Id, std::vector<std::vector<Id>>> rows;
+    std::unordered_map<std::uint64_t, bool> answers;
+  };
+
+  // A visitor with its queries.
+  struct Call {
+    const Step* step;
+    const Visitor* visitor;
+    std::size_t expansion;
+    Asked* select = nullptr;
+    std::vector<Asked*> conditions = {};
+  };
+
+  Call call_of(const Step& step, const Visitor& visitor) {
+    Call call{&step, &visitor,
+              cluster(visitor.expansion.empty() ? step.expansion : visitor.expansion)};
+    for (const std::string& text : visitor.conditions) call.conditions.push_back(&prepare(text));
+    if (!visitor.select.empty()) call.select = &prepare(visitor.select);
+    return call;
+  }
+
+  Asked& prepare(const std::string& text) {
+    Asked& asked = asked_[text];
+    if (!asked.query)
+      asked.query = rdf::sparql::prepare(context_.store, text, {"node", "parent", "algorithm"});
+    return asked;
   }
 
   // Steps with the same expansion query form one cluster.
   std::size_t cluster(const std::string& text) {
     const auto [found, fresh] = clusters_.try_emplace(text, expansions_.size());
-    if (fresh) expansions_.push_back(prepare(text));
+    if (fresh) expansions_.push_back(prepare(text).query);
     return found->second;
   }
 
@@ -119,65 +148,53 @@ class Traversal {
     });
   }
 
-  void go(const Sweep& sweep, Pass Visitor::*pass) {
-    const bool outward = sweep.direction != Direction::kInward;
-    if (outward) visit_root(sweep, pass);
+  static bool is_outward(const Sweep& sweep) { return sweep.direction != Direction::kInward; }
+
+  void go(const Sweep& sweep, std::span<const Call> calls, Pass Visitor::*pass) {
+    const bool outward = is_outward(sweep);
+    if (outward) visit_root(calls, pass);
     if (sweep.direction == Direction::kOnce) return;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       const Edge& edge = edges_[outward ? i : edges_.size() - 1 - i];
-      for (const Step* step : sweep.steps) {
-        // On the way out a child is ready after its edge; on the way in, before it.
-        if (outward) visit(*step, edge, Where::kEdge, pass);
-        visit(*step, edge, Where::kNode, pass);
-        if (!outward) visit(*step, edge, Where::kEdge, pass);
+      for (const Call& call : calls) {
+        if (call.expansion != edge.expansion) continue;
+        if (call.visitor->where == Where::kNode)
+          visit(call, {edge.child, {}, {}, {}}, pass);
+        else
+          visit(call, {edge.child, edge.parent, expansions_[edge.expansion]->columns(), edge.row},
+                pass);
       }
     }
-    if (!outward) visit_root(sweep, pass);
+    if (!outward) visit_root(calls, pass);
   }
 
-  void visit_root(const Sweep& sweep, Pass Visitor::*pass) {
-    for (const Step* step : sweep.steps)
-      for (const Visitor& visitor : step->visitors)
-        if (visitor.where == Where::kNode && visitor.expansion.empty())
-          visit(*step, visitor, {context_.robot.root_frame, {}, {}, {}}, pass);
+  void visit_root(std::span<const Call> calls, Pass Visitor::*pass) {
+    for (const Call& call : calls)
+      if (call.visitor->where == Where::kNode && call.visitor->expansion.empty())
+        visit(call, {context_.robot.root_frame, {}, {}, {}}, pass);
   }
 
-  void visit(const Step& step, const Edge& edge, Where where, Pass Visitor::*pass) {
-    for (const Visitor& visitor : step.visitors) {
-      if (visitor.where != where || visitor_expansion_[&visitor] != edge.expansion) continue;
-      if (where == Where::kNode)
-        visit(step, visitor, {edge.child, {}, {}, {}}, pass);
-      else
-        visit(step, visitor,
-              {edge.child, edge.parent, expansions_[edge.expansion]->columns(), edge.row}, pass);
-    }
-  }
-
-  void visit(const Step& step, const Visitor& visitor, const Visit& visit, Pass Visitor::*pass) {
-    if ((visitor.*pass) && holds(visitor, visit.node, visit.parent))
-      call(step, visitor, visit, pass);
-  }
-
-  void call(const Step& step, const Visitor& visitor, Visit visit, Pass Visitor::*pass) {
-    context_.step = &step;
-    if (visitor.select.empty()) {
-      (visitor.*pass)(context_, visit);
+  void visit(const Call& call, Visit visit, Pass Visitor::*pass) {
+    const Pass& run = call.visitor->*pass;
+    if (!run || !holds(call, visit.node, visit.parent)) return;
+    context_.step = call.step;
+    if (call.select == nullptr) {
+      run(context_, visit);
       return;
     }
-    for (const std::vector<Id>& row : select(visitor.select, visit.node)) {
-      visit.columns = prepared_[visitor.select]->columns();
+    for (const std::vector<Id>& row : select(*call.select, visit.node)) {
+      visit.columns = call.select->query->columns();
       visit.row = row;
-      (visitor.*pass)(context_, visit);
+      run(context_, visit);
     }
   }
 
   // The configure and the compute pass ask the same; the second one is answered from memory.
-  const std::vector<std::vector<Id>>& select(const std::string& text, Id node) {
-    const Prepared& query = prepared_[text];
-    const auto [found, fresh] = selected_[query.get()].try_emplace(node);
+  const std::vector<std::vector<Id>>& select(Asked& asked, Id node) {
+    const auto [found, fresh] = asked.rows.try_emplace(node);
     if (fresh) {
       const Id parameters[] = {node, Id{}, context_.builder.algorithm().id};
-      query->select(context_.view, parameters, [&](std::span<const Id> row) {
+      asked.query->select(context_.view, parameters, [&](std::span<const Id> row) {
         found->second.emplace_back(row.begin(), row.end());
         return true;
       });
@@ -186,14 +203,13 @@ class Traversal {
     return found->second;
   }
 
-  bool holds(const Visitor& visitor, Id node, Id parent) {
-    for (const std::string& text : visitor.conditions) {
-      const Prepared& query = prepared_[text];
+  bool holds(const Call& call, Id node, Id parent) {
+    for (Asked* const asked : call.conditions) {
       const std::uint64_t key = std::uint64_t{node.value} << 32 | parent.value;
-      const auto [found, fresh] = answers_[query.get()].try_emplace(key, false);
+      const auto [found, fresh] = asked->answers.try_emplace(key, false);
       if (fresh) {
         const Id parameters[] = {node, parent, context_.builder.algorithm().id};
-        found->second = query->ask(context_.view, parameters);
+        found->second = asked->query->ask(context_.view, parameters);
         ++counts_.conditions;
       }
       if (!found->second) return false;
@@ -204,14 +220,12 @@ class Traversal {
   Context& context_;
   std::span<const Sweep> sweeps_;
   TraversalCounts counts_;
-  std::unordered_map<std::string, Prepared> prepared_;
+  std::unordered_map<std::string, Asked> asked_;
   std::unordered_map<std::string, std::size_t> clusters_;
   std::vector<Prepared> expansions_;
-  std::unordered_map<const Visitor*, std::size_t> visitor_expansion_;
+  std::vector<std::vector<Call>> calls_;  // of each sweep, in the order in which an edge has them
   std::vector<Id> nodes_;
   std::vector<Edge> edges_;
-  std::unordered_map<const void*, std::unordered_map<Id, std::vector<std::vector<Id>>>> selected_;
-  std::unordered_map<const void*, std::unordered_map<std::uint64_t, bool>> answers_;
 };
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <set>
 #include <string>
@@ -218,6 +220,35 @@ TEST(DerivedNode, HasAnIriThatDependsOnTextsOnly) {
   EXPECT_EQ(names[0].substr(0, kDerivedPrefix.size()), kDerivedPrefix);
   EXPECT_EQ(names[0].size(), kDerivedPrefix.size() + 36);
   EXPECT_EQ(names[0][kDerivedPrefix.size() + 14], '5');
+}
+
+// The beginnings of names are remembered: whatever was named before, a node's name is its own.
+TEST(DerivedNode, IriIsTheSameInWhateverOrderNamesAreMade) {
+  std::vector<std::string> first;
+  for (int order = 0; order < 4; ++order) {
+    Terms terms;
+    std::vector<Id> nodes;
+    for (int role = 0; role < 9; ++role)
+      for (int part = 0; part < 30; ++part) {
+        const Id of = terms.iri("http://x/role" + std::to_string(role));
+        const Id a = part == 0 ? Id{} : terms.literal("part", xsd("token") + std::to_string(part));
+        const Id b = terms.iri("http://x/part" + std::to_string(part));
+        for (const std::vector<Id>& parts :
+             {std::vector<Id>{}, {a}, {a, b}, {b, a}, {b}, {a, b, a}})
+          nodes.push_back(terms.derived(of, parts));
+      }
+    std::vector<std::size_t> turns(nodes.size());
+    std::iota(turns.begin(), turns.end(), 0);
+    if (order > 0) std::shuffle(turns.begin(), turns.end(), std::mt19937(order));
+    std::vector<std::string> texts(nodes.size());
+    for (const std::size_t k : turns) texts[k] = terms.text(nodes[k]);
+    if (order == 0) {
+      first = texts;
+      EXPECT_EQ(std::set<std::string>(texts.begin(), texts.end()).size(),
+                std::set<Id>(nodes.begin(), nodes.end()).size());
+    }
+    EXPECT_EQ(texts, first) << order;
+  }
 }
 
 TEST(DerivedNode, NamesDoNotCollideBySplittingTextsDifferently) {

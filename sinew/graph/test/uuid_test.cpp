@@ -33,6 +33,20 @@ TEST(Sha1, IsTheSameByTheProcessorsInstructionsAndWithoutThem) {
   EXPECT_EQ(hex(sha1_portable("abc")), "a9993e364706816aba3e25717850c26c9cd0d89d");
 }
 
+TEST(Sha1, IsTheSameOfAMessageThatComesInPieces) {
+  std::string message;
+  for (int k = 0; k < 300; ++k) message += static_cast<char>(k * 7 + 1);
+  for (std::size_t piece = 1; piece < 200; piece += 3) {
+    Sha1 hash;
+    for (std::size_t at = 0; at < message.size(); at += piece) {
+      EXPECT_EQ(hex(hash.digest()), hex(sha1(message.substr(0, at))));
+      hash.add(std::string_view(message).substr(at, piece));
+    }
+    hash.add({});
+    EXPECT_EQ(hex(hash.digest()), hex(sha1(message))) << piece;
+  }
+}
+
 TEST(Uuid, AgreesWithTheExampleOfRfc9562) {
   // Appendix A.4: version 5 of "www.example.com" in the namespace of domain names.
   constexpr Uuid kDomains = {0x6b, 0xa7, 0xb8, 0x10, 0x9d, 0xad, 0x11, 0xd1,
