@@ -13,18 +13,19 @@ namespace {
 constexpr std::uint64_t kMix =
     0x9e3779b97f4a7c15ULL;  // 2^64 / golden ratio: spreads consecutive keys
 
+// Of a sum or product, of which all else is zero. Numbers of nodes leave room for the operation.
+std::uint64_t hash(Op op, Ref a, Ref b) {
+  const std::uint64_t operands = std::uint64_t{a.bits} << 32U | b.bits;
+  const std::uint64_t h = (operands ^ std::uint64_t{static_cast<std::uint8_t>(op)} << 28U) * kMix;
+  return h ^ h >> 32U;
+}
+
 std::uint64_t hash(const Node& node) {
+  if (node.op == Op::kAdd || node.op == Op::kMultiply) return hash(node.op, node.a, node.b);
   const std::uint64_t operands = std::uint64_t{node.a.bits} << 32U | node.b.bits;
   const std::uint64_t rest = std::uint64_t{node.c.bits ^ node.index} << 8U;
   std::uint64_t h = (operands ^ std::bit_cast<std::uint64_t>(node.value)) * kMix;
   h = (h ^ h >> 32U ^ rest ^ static_cast<std::uint64_t>(node.op)) * kMix;
-  return h ^ h >> 32U;
-}
-
-// The same for a sum or product, of which all else is zero.
-std::uint64_t hash(Op op, Ref a, Ref b) {
-  std::uint64_t h = (std::uint64_t{a.bits} << 32U | b.bits) * kMix;
-  h = (h ^ h >> 32U ^ static_cast<std::uint64_t>(op)) * kMix;
   return h ^ h >> 32U;
 }
 
@@ -74,23 +75,22 @@ void Dag::rehash(std::size_t least) {
   }
 }
 
-template <typename Same>
-Ref Dag::find_or_add(const Node& node, std::uint64_t hash, Same same) {
-  const std::size_t places = table_.size();
-  const std::uint64_t mask = places - 1;
+template <typename Same, typename Make>
+Ref Dag::find_or_add(std::uint64_t hash, Same same, Make make) {
+  const std::uint64_t mask = table_.size() - 1;
   std::uint32_t* const table = table_.data();
-  const Node* const nodes = nodes_.data();
   std::uint64_t at = hash & mask;
   for (std::uint32_t there; (there = table[at]) != 0; at = (at + 1) & mask) {
     // Nodes whose hashes differ in the bits that are kept need not be looked at.
     if (there >> kNodeBits != hash >> 56U) continue;
     const std::uint32_t found = (there & kNodeMask) - 1;
-    if (same(nodes[found])) return Ref::of(found);
+    if (same(nodes_[found])) return Ref::of(found);
   }
-  const std::size_t count = nodes_.size();
-  const auto index = append(node).node();
+  const auto index = static_cast<std::uint32_t>(nodes_.size());
+  if (index >= kMaximumNodes) throw too_many_nodes();
+  make();
   table[at] = entry(index, hash);
-  if (count * 2 + 2 > places) rehash(places * 2);
+  if (std::uint64_t{index} * 2 + 2 > mask) rehash((mask + 1) * 2);
   return Ref::of(index);
 }
 
@@ -100,21 +100,26 @@ Ref Dag::append(const Node& node) {
   return Ref::of(static_cast<std::uint32_t>(nodes_.size() - 1));
 }
 
-Ref Dag::intern(const Node& like) {
-  Node node = like;
-  if (arity(node.op) > 0) node.origin = origin_;
-  return find_or_add(node, hash(node), [&](const Node& other) { return same(other, node); });
+Ref Dag::intern(const Node& node) {
+  return find_or_add(
+      hash(node), [&](const Node& other) { return same(other, node); },
+      [&] {
+        Node& made = nodes_.emplace_back(node);
+        if (arity(made.op) > 0) made.origin = origin_;
+      });
 }
 
 Ref Dag::intern(Op op, Ref a, Ref b) {
-  Node node;
-  node.op = op;
-  node.a = a;
-  node.b = b;
-  node.origin = origin_;
-  return find_or_add(node, hash(op, a, b), [=](const Node& other) {
-    return other.op == op && other.a == a && other.b == b;
-  });
+  return find_or_add(
+      hash(op, a, b),
+      [=](const Node& other) { return other.op == op && other.a == a && other.b == b; },
+      [=, this] {
+        Node& made = nodes_.emplace_back();
+        made.op = op;
+        made.a = a;
+        made.b = b;
+        made.origin = origin_;
+      });
 }
 
 double Dag::sum_of_constants(double x, double y) {
@@ -176,7 +181,10 @@ Ref Dag::add(Ref a, Ref b) {
 
 std::uint32_t Dag::unscaled(Ref ref) const {
   const Node& n = node(ref);
-  return n.op == Op::kMultiply && is_constant(n.a) ? n.b.node() : ref.node();
+  // Both are asked, of the first node where there is no operand: no branch has to be guessed.
+  const bool is_product = n.op == Op::kMultiply, has_constant = is_constant(n.a);
+  const std::uint32_t scaled = 0U - static_cast<std::uint32_t>(is_product & has_constant);
+  return (n.b.node() & scaled) | (ref.node() & ~scaled);
 }
 
 // Operands by index; the first one positive.

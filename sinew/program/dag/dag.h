@@ -52,27 +52,12 @@ struct Node {
   std::uint32_t origin = kNoOrigin;  // index of a closure of the program
 };
 
-// Number of operands that an operation takes.
-constexpr int arity(Op op) {
-  switch (op) {
-    case Op::kConstant:
-    case Op::kInput:
-      return 0;
-    case Op::kSqrt:
-    case Op::kSin:
-    case Op::kCos:
-      return 1;
-    case Op::kAdd:
-    case Op::kMultiply:
-    case Op::kDivide:
-    case Op::kLess:
-      return 2;
-    case Op::kFma:
-    case Op::kSelect:
-      return 3;
-  }
-  return 0;
-}
+// Number of operands that an operation takes. A table: which operation it is nobody can guess, and
+// a branch would often be the wrong one.
+inline constexpr std::uint8_t kOperands[] = {0, 0, 2, 2, 3, 2, 1, 1, 1, 2, 3};
+constexpr int arity(Op op) { return kOperands[static_cast<std::uint8_t>(op)]; }
+static_assert(arity(Op::kInput) == 0 && arity(Op::kAdd) == 2 && arity(Op::kFma) == 3 &&
+              arity(Op::kSqrt) == 1 && arity(Op::kLess) == 2 && arity(Op::kSelect) == 3);
 
 class Dag {
  public:
@@ -126,10 +111,10 @@ class Dag {
 
  private:
   Ref intern(const Node& node);
-  Ref intern(Op op, Ref a, Ref b);  // of a sum or product
-  // The node that is the `same`, or this one anew; its hash is known.
-  template <typename Same>
-  Ref find_or_add(const Node& node, std::uint64_t hash, Same same);
+  [[gnu::always_inline]] inline Ref intern(Op op, Ref a, Ref b);  // of a sum or product
+  // The node of this hash that is the `same`, or one more that `make` appends.
+  template <typename Same, typename Make>
+  [[gnu::always_inline]] inline Ref find_or_add(std::uint64_t hash, Same same, Make make);
   // The node of which this one is a constant multiple, or itself.
   std::uint32_t unscaled(Ref ref) const;
   Ref new_sum(Ref a, Ref b);

@@ -8,14 +8,14 @@ std::vector<std::uint8_t> live_nodes(const Computation& computation) {
   const Dag& dag = computation.dag;
   std::vector<std::uint8_t> live(dag.size(), 0);
   for (const Ref result : computation.results) live[result.node()] = 1;
-  // Operands have smaller indices than the nodes that use them.
+  // Operands have smaller indices than the nodes that use them. Where there are fewer than three,
+  // the first node gets nothing: there is no branch to be guessed.
   for (std::uint32_t i = dag.size(); i-- > 0;) {
-    if (!live[i]) continue;
     const Node& node = dag.node(i);
     const int operands = arity(node.op);
-    if (operands > 0) live[node.a.node()] = 1;
-    if (operands > 1) live[node.b.node()] = 1;
-    if (operands > 2) live[node.c.node()] = 1;
+    live[node.a.node()] |= operands > 0 ? live[i] : 0;
+    live[node.b.node()] |= operands > 1 ? live[i] : 0;
+    live[node.c.node()] |= operands > 2 ? live[i] : 0;
   }
   return live;
 }

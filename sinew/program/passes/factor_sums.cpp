@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <vector>
 
 #include "sinew/program/passes/small_list.h"
 
@@ -97,8 +98,17 @@ class Factoring {
         system_.terms[outside++] = term;
       }
     }
+    taken_out_.assign(system_.terms.begin() + first, system_.terms.end());
     system_.collect_last_terms(first, first);
     const std::uint32_t sum = system_.add_sum(first, old.origin);
+    if (system_.uses[i] > 0) {
+      system_.uses[sum] = 1;
+      system_.retain(system_.terms_of(sum));
+      system_.release(taken_out_);
+      if ((factor & kConstant) == 0) {
+        system_.uses[factor] -= static_cast<std::uint32_t>(taken_out_.size()) - 1;
+      }
+    }
     if ((factor & kConstant) != 0) {
       const double value = std::bit_cast<double>(factor & ~kConstant);
       system_.terms[outside++] = system_.term(value, {&sum, 1});
@@ -112,6 +122,7 @@ class Factoring {
 
   Polynomials& system_;
   SmallList<Factor, 64> all_;  // of the sum that is looked at
+  std::vector<Term> taken_out_;
 };
 
 }  // namespace
@@ -119,7 +130,8 @@ class Factoring {
 void factor_sums(Polynomials& system) {
   system.read();
   Factoring factoring(system);
-  for (std::uint32_t i = 0; i < system.sums.size(); ++i) {
+  for (std::size_t k = 0; k < system.long_sums.size(); ++k) {
+    const std::uint32_t i = system.long_sums[k];
     if (system.sums[i].count > 1) factoring.run(i);
   }
   // Also where nothing was taken out: products are in the order of their factors afterwards.

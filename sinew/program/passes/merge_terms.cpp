@@ -11,7 +11,7 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
 class Merging {
  public:
-  explicit Merging(Polynomials& system) : system_(system), uses_(use_counts(system)) {}
+  explicit Merging(Polynomials& system) : system_(system) {}
 
   // Returns whether terms met.
   bool run(std::uint32_t i) {
@@ -32,7 +32,7 @@ class Merging {
           static_cast<std::size_t>(std::count_if(terms.begin(), terms.end(), meets));
       std::size_t freed = 0;  // additions that nobody else uses
       for (std::size_t k = from; k < to; ++k) {
-        freed += uses_[system_.factors[terms[expandable_[k].term].first]] == 1 ? 1 : 0;
+        freed += system_.uses[system_.factors[terms[expandable_[k].term].first]] == 1 ? 1 : 0;
       }
       // Before: one addition for each member and each meeting term; after: one for each node.
       if (to - from + meeting + freed > 2) {
@@ -91,28 +91,12 @@ class Merging {
     system_.collect_last_terms(first, first);
     system_.sums[i] = {first, static_cast<std::uint32_t>(system_.terms.size()) - first, old.origin};
     // What the new terms use is in use already, by the sums that they come from.
-    for (const Term& term : system_.terms_of(i)) {
-      for (const std::uint32_t factor : system_.factors_of(term)) ++uses_[factor];
-    }
-    release(old);
-  }
-
-  // The terms of a sum use their factors no more.
-  void release(const Sum& sum) {
-    for (std::uint32_t k = sum.first; k < sum.first + sum.count; ++k) {
-      for (const std::uint32_t factor : system_.factors_of(system_.terms[k])) release(factor);
-    }
-  }
-  void release(std::uint32_t node) {
-    if (--uses_[node] > 0) return;
-    if (system_.is_sum[node] != 0) return release(system_.sums[node]);
-    const Node& operation = system_.graph.dag.node(node);
-    const Ref operands[] = {operation.a, operation.b, operation.c};
-    for (int k = 0; k < arity(operation.op); ++k) release(operands[k].node());
+    if (system_.uses[i] == 0) return;
+    system_.retain(system_.terms_of(i));
+    system_.release({system_.terms.data() + old.first, old.count});
   }
 
   Polynomials& system_;
-  std::vector<std::uint32_t> uses_;
   std::vector<Expandable> expandable_;  // of the sum that is looked at
 };
 
@@ -122,7 +106,7 @@ void merge_terms(Polynomials& system) {
   system.read();
   Merging merging(system);
   bool changed = false;
-  for (std::uint32_t i = 0; i < system.sums.size(); ++i) {
+  for (const std::uint32_t i : system.long_sums) {
     if (system.sums[i].count > 1) changed |= merging.run(i);
   }
   if (changed) system.write(Association::kPlain);

@@ -14,14 +14,15 @@
 #include <vector>
 
 #include "sinew/program/dag/dag.h"
+#include "sinew/program/passes/pooled.h"
 
 namespace sinew::program {
 
 // coefficient * product of factors; the factors are numbers of nodes, sorted, repeated for powers.
 // Without factors it is a constant.
 struct Term {
-  double coefficient = 1.0;
-  std::uint32_t first = 0, count = 0;  // in Polynomials::factors
+  double coefficient;
+  std::uint32_t first, count;  // in Polynomials::factors
 };
 
 struct Sum {
@@ -40,10 +41,15 @@ enum class Association {
 // nodes behind those of the graph are sums that passes have added.
 struct Polynomials {
   Computation graph;
-  std::vector<std::uint8_t> is_sum;    // of each node
-  std::vector<Sum> sums;               // of each node; empty where it is none, or has been taken up
-  std::vector<Term> terms;             // of all sums: no two have one in common
-  std::vector<std::uint32_t> factors;  // of all terms; after reading no two have one in common
+  std::vector<std::uint8_t> is_sum;  // of each node
+  std::vector<Sum> sums;             // of each node; empty where it is none, or has been taken up
+  std::vector<std::uint32_t> nodes;  // those that are not part of another one, in their order
+  std::vector<std::uint32_t> long_sums;  // of those the sums that were of several terms when read
+  UnsetVector<Term> terms;               // of all sums: no two have one in common
+  UnsetVector<std::uint32_t> factors;    // of all terms; after reading no two have one in common
+  // How often each node is a factor of a live sum, an operand of another live operation, or a
+  // result; 0 for a dead one. Passes keep it up to date.
+  std::vector<std::uint32_t> uses;
 
   explicit Polynomials(Computation computation) : graph(std::move(computation)) {}
 
@@ -63,11 +69,18 @@ struct Polynomials {
   }
   // A term whose factors are new; they have to be sorted.
   Term term(double coefficient, std::span<const std::uint32_t> of);
-  // A new node for the terms from `first` on, which are the last ones.
+  // A new node for the terms from `first` on, which are the last ones. Nobody uses it yet, and what
+  // its terms use is not counted.
   std::uint32_t add_sum(std::uint32_t first, std::uint32_t origin);
   // Adds terms of the same factors together and drops those that cancel, in the array of terms from
   // `first` to its end. Those before `distinct` are known to be different and not zero.
   void collect_last_terms(std::uint32_t first, std::uint32_t distinct);
+
+  // Terms that a sum has from now on, or no longer: their factors are used so much more or less.
+  // What nobody uses any more uses nothing itself.
+  void retain(std::span<const Term> some);
+  void release(std::span<const Term> some);
+  void release(std::uint32_t node);
 
  private:
   bool is_read_ = false;
@@ -80,8 +93,5 @@ inline bool same_factors(const Polynomials& system, const Term& a, const Term& b
   }
   return true;
 }
-
-// How often each node is used by live nodes and results; 0 for a dead one.
-std::vector<std::uint32_t> use_counts(const Polynomials& system);
 
 }  // namespace sinew::program

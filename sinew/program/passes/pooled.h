@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sinew::program {
@@ -87,7 +89,26 @@ struct Pooled {
   bool operator==(const Pooled&) const { return true; }
 };
 
+// For vectors of plain values that grow in order to be written: new ones are left as they are.
 template <typename T>
-using PooledVector = std::vector<T, Pooled<T>>;
+struct Unset : std::allocator<T> {
+  static_assert(std::is_trivially_default_constructible_v<T>);
+  template <typename U>
+  struct rebind {
+    using other = Unset<U>;
+  };
+
+  template <typename U>
+  void construct(U* at) noexcept {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <typename U, typename... Values>
+  void construct(U* at, Values&&... values) {
+    std::construct_at(at, std::forward<Values>(values)...);
+  }
+};
+
+template <typename T>
+using UnsetVector = std::vector<T, Unset<T>>;
 
 }  // namespace sinew::program

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -14,65 +15,88 @@ namespace {
 // Constants and inputs are read from memory where they are used; sines lie in memory as well.
 bool in_register(Op op) { return arity(op) > 0 && op != Op::kSin && op != Op::kCos; }
 
+// Each once.
 template <typename Visit>
 void for_each_operand(const Node& node, Visit visit) {
-  const Ref operands[] = {node.a, node.b, node.c};
-  for (int k = 0; k < arity(node.op); ++k) {
-    bool repeated = false;
-    for (int j = 0; j < k; ++j) repeated = repeated || operands[j].node() == operands[k].node();
-    if (!repeated) visit(operands[k].node());
-  }
+  const int count = arity(node.op);
+  const std::uint32_t a = node.a.node(), b = node.b.node(), c = node.c.node();
+  if (count > 0) visit(a);
+  if (count > 1 && b != a) visit(b);
+  if (count > 2 && c != a && c != b) visit(c);
 }
 
 class Scheduler {
  public:
   explicit Scheduler(const Computation& computation)
-      : dag_(computation.dag),
-        live_(live_nodes(computation)),
-        tails_(times_to_the_end(computation)) {
+      : dag_(computation.dag), tails_(times_to_the_end(computation)), all_(dag_.size()) {
+    const std::vector<std::uint8_t> live = live_nodes(computation);
     const std::uint32_t n = dag_.size();
-    missing_.assign(n, 0);
-    unread_.assign(n, 0);
     for (std::uint32_t i = 0; i < n; ++i) {
-      if (!live_[i]) continue;
-      for_each_operand(dag_.node(i), [&](std::uint32_t operand) {
-        ++unread_[operand];
-        ++missing_[i];
+      const Node& node = dag_.node(i);
+      Value& value = all_[i];
+      value.is_live = live[i] != 0;
+      value.in_register = in_register(node.op);
+      if (!value.is_live) continue;
+      for_each_operand(node, [&](std::uint32_t operand) {
+        value.operands[value.missing++] = operand;
+        ++all_[operand].unread;
+        all_[operand].last_user = i;
       });
+      value.count = value.missing;
     }
-    users_.from.assign(n + 1, 0);
-    for (std::uint32_t i = 0; i < n; ++i) users_.from[i + 1] = users_.from[i] + unread_[i];
-    users_.all.resize(users_.from[n]);
-    std::vector<std::uint32_t> next = users_.from;
+    std::uint32_t first = 0;
+    for (Value& value : all_) {
+      value.users = first;
+      first += value.unread;
+      value.stays = value.in_register && value.unread > 0;
+    }
+    users_.resize(first);
+    std::vector<std::uint32_t> next(n);
     for (std::uint32_t i = 0; i < n; ++i) {
-      if (!live_[i]) continue;
-      for_each_operand(dag_.node(i),
-                       [&](std::uint32_t operand) { users_.all[next[operand]++] = i; });
+      next[i] = all_[i].users;
+      for (const std::uint32_t operand : all_[i].operands_of()) users_[next[operand]++] = i;
     }
   }
 
-  // The most values that were live at a time, after run(): what live_values() says of the order.
+  // The most values that are live at a time in the order of the nodes.
+  std::uint32_t most_by_index() const {
+    std::uint32_t count = 0, most = 0;
+    for (std::uint32_t i = 0; i < all_.size(); ++i) {
+      const Value& value = all_[i];
+      if (!value.is_live) continue;
+      for (const std::uint32_t operand : value.operands_of()) {
+        const Value& read = all_[operand];
+        count -= read.last_user == i && read.in_register ? 1 : 0;
+      }
+      if (value.in_register) most = std::max(most, count + 1);
+      count += value.stays ? 1 : 0;
+    }
+    return most;
+  }
+
+  // The same of the order that run() returned.
   std::uint32_t most() const { return most_; }
 
   std::vector<std::uint32_t> run() {
     const std::uint32_t n = dag_.size();
-    growth_.assign(n, 0);
-    state_.assign(n, State::kWaiting);
-    std::vector<std::uint32_t> order;
+    order_.reserve(n);
     std::vector<std::uint32_t> free;  // constants and inputs: they come first
     for (std::uint32_t i = 0; i < n; ++i) {
-      if (!live_[i]) continue;
-      growth_[i] = stays(i) ? 1 : 0;
-      for_each_operand(dag_.node(i), [&](std::uint32_t operand) {
-        if (unread_[operand] == 1 && in_register(dag_.node(operand).op)) --growth_[i];
-      });
-      if (missing_[i] == 0) free.push_back(i);
+      Value& value = all_[i];
+      if (!value.is_live) continue;
+      // A result that nobody else needs is written at once.
+      value.growth = value.stays ? 1 : 0;
+      for (const std::uint32_t operand : value.operands_of()) {
+        const Value& read = all_[operand];
+        value.growth -= read.unread == 1 && read.in_register ? 1 : 0;
+      }
+      if (value.missing == 0) free.push_back(i);
     }
-    for (const std::uint32_t i : free) take(i, order);
+    for (const std::uint32_t i : free) take(i);
     for (;;) {
       const std::uint32_t next = choose();
-      if (next == kNone) return order;
-      take(next, order);
+      if (next == kNone) return std::move(order_);
+      take(next);
     }
   }
 
@@ -81,91 +105,102 @@ class Scheduler {
   static constexpr int kLeastGrowth = -3;  // frees three, needs none
   static constexpr int kGrowths = 5;       // up to 1
 
-  // Of each node, one after the other.
-  struct Users {
-    std::vector<std::uint32_t> all, from;
-    std::span<const std::uint32_t> operator[](std::uint32_t i) const {
-      return {all.data() + from[i], from[i + 1] - from[i]};
-    }
-  };
-
   enum class State : std::uint8_t { kWaiting, kReady, kDone };
 
-  // What the longest path waits for comes first, then the smaller number.
-  struct Later {
-    const std::vector<double>& tails;
-    bool operator()(std::uint32_t a, std::uint32_t b) const {
-      return tails[a] != tails[b] ? tails[a] < tails[b] : a > b;
-    }
+  struct Value {
+    std::array<std::uint32_t, 3> operands{};  // each once
+    std::uint32_t users = 0;                  // the first of them in users_
+    std::uint32_t unread = 0;                 // users that have not been scheduled
+    std::uint32_t last_user = kNone;          // by index
+    std::uint8_t count = 0;                   // of operands
+    std::uint8_t missing = 0;                 // operands that have not been scheduled
+    std::int8_t growth = 0;                   // values more that are live after it
+    State state = State::kWaiting;
+    bool is_live = false, in_register = false;
+    bool stays = false;  // lives on when it has been computed
+
+    std::span<const std::uint32_t> operands_of() const { return {operands.data(), count}; }
   };
-  using Queue = std::vector<std::uint32_t>;  // a heap; may hold nodes that are no longer in it
 
-  // A result that nobody else needs is written at once.
-  bool stays(std::uint32_t i) const { return in_register(dag_.node(i).op) && !users_[i].empty(); }
+  // What the longest path waits for comes first, then the smaller number: as one number.
+  using Key = std::uint64_t;
+  static constexpr bool kWholeCycles = std::all_of(
+      std::begin(kCycles), std::end(kCycles),
+      [](double cycles) { return cycles == static_cast<double>(static_cast<int>(cycles)); });
+  static_assert(kWholeCycles && Dag::kMaximumNodes * 60.0 < 0xffffffff);
+  Key key(std::uint32_t i) const {
+    return static_cast<Key>(tails_[i]) << 32U | static_cast<std::uint32_t>(~i);
+  }
+  static std::uint32_t node_of(Key key) { return ~static_cast<std::uint32_t>(key); }
+  using Queue = std::vector<Key>;  // a heap; may hold nodes that are no longer in it
 
-  Queue& queue_of(std::uint32_t i) {
-    return ready_[static_cast<std::size_t>(growth_[i] - kLeastGrowth)];
+  std::span<const std::uint32_t> users_of(std::uint32_t i) const {
+    const std::size_t end = i + 1 < all_.size() ? all_[i + 1].users : users_.size();
+    return {users_.data() + all_[i].users, end - all_[i].users};
+  }
+
+  Queue& queue_of(const Value& value) {
+    return ready_[static_cast<std::size_t>(value.growth - kLeastGrowth)];
   }
   void push(std::uint32_t i) {
-    state_[i] = State::kReady;
-    Queue& queue = queue_of(i);
-    queue.push_back(i);
-    std::push_heap(queue.begin(), queue.end(), Later{tails_});
+    all_[i].state = State::kReady;
+    Queue& queue = queue_of(all_[i]);
+    queue.push_back(key(i));
+    std::push_heap(queue.begin(), queue.end());
   }
-  // The first node of a queue that is still in it, or kNone.
-  std::uint32_t first(Queue& queue) {
+  // The first node of a queue that is still in it; 0 if there is none, which is no node's key.
+  Key first(Queue& queue) {
     while (!queue.empty()) {
-      const std::uint32_t i = queue.front();
-      if (state_[i] == State::kReady && &queue_of(i) == &queue) return i;
-      std::pop_heap(queue.begin(), queue.end(), Later{tails_});
+      const Value& value = all_[node_of(queue.front())];
+      if (value.state == State::kReady && &queue_of(value) == &queue) return queue.front();
+      std::pop_heap(queue.begin(), queue.end());
       queue.pop_back();
     }
-    return kNone;
+    return 0;
   }
 
-  void take(std::uint32_t next, std::vector<std::uint32_t>& order) {
-    state_[next] = State::kDone;
-    order.push_back(next);
-    const Node& node = dag_.node(next);
-    for_each_operand(node, [&](std::uint32_t operand) {
-      const bool counts = in_register(dag_.node(operand).op);
-      if (--unread_[operand] == 0 && counts) --count_;
-      if (unread_[operand] != 1 || !counts) return;
+  void take(std::uint32_t next) {
+    Value& taken = all_[next];
+    taken.state = State::kDone;
+    order_.push_back(next);
+    for (const std::uint32_t operand : taken.operands_of()) {
+      Value& read = all_[operand];
+      --read.unread;
+      if (!read.in_register) continue;
+      if (read.unread == 0) --count_;
+      if (read.unread != 1) continue;
       // Who reads it last frees it.
-      for (const std::uint32_t user : users_[operand]) {
-        if (state_[user] == State::kDone) continue;
-        --growth_[user];
-        if (state_[user] == State::kReady) push(user);
+      for (const std::uint32_t user : users_of(operand)) {
+        Value& last = all_[user];
+        if (last.state == State::kDone) continue;
+        --last.growth;
+        if (last.state == State::kReady) push(user);
+        break;
       }
-    });
-    if (in_register(node.op)) most_ = std::max(most_, count_ + 1);
-    if (stays(next)) ++count_;
-    for (const std::uint32_t user : users_[next]) {
-      if (--missing_[user] == 0) push(user);
+    }
+    if (taken.in_register) most_ = std::max(most_, count_ + 1);
+    count_ += taken.stays ? 1 : 0;
+    for (const std::uint32_t user : users_of(next)) {
+      if (--all_[user].missing == 0) push(user);
     }
   }
 
   // With few values live, what the longest path waits for; otherwise what frees most values.
   std::uint32_t choose() {
     const bool full = count_ >= kLiveLimit;
-    std::uint32_t best = kNone;
+    Key best = 0;
     for (Queue& queue : ready_) {
-      const std::uint32_t i = first(queue);
-      if (i == kNone) continue;
-      if (best == kNone || Later{tails_}(best, i)) best = i;
-      if (full) break;
+      best = std::max(best, first(queue));
+      if (full && best != 0) break;
     }
-    return best;
+    return best == 0 ? kNone : node_of(best);
   }
 
   const Dag& dag_;
-  std::vector<std::uint8_t> live_;
   std::vector<double> tails_;
-  Users users_;
-  std::vector<std::uint32_t> missing_;  // operands that have not been scheduled
-  std::vector<std::uint32_t> unread_;   // users that have not been scheduled
-  std::vector<int> growth_;             // values more that are live after the node
-  std::vector<State> state_;
+  std::vector<Value> all_;            // of each node
+  std::vector<std::uint32_t> users_;  // of each node, one after the other
+  std::vector<std::uint32_t> order_;
   std::array<Queue, kGrowths> ready_;  // by growth
   std::uint32_t count_ = 0;            // values that are live
   std::uint32_t most_ = 0;
@@ -200,8 +235,8 @@ std::uint32_t live_values(const Computation& computation) {
 
 Computation schedule(Computation computation) {
   computation.order.clear();
-  const std::uint32_t before = live_values(computation);
   Scheduler scheduler(computation);
+  const std::uint32_t before = scheduler.most_by_index();
   std::vector<std::uint32_t> order = scheduler.run();
   if (before <= kLiveLimit || scheduler.most() <= before) computation.order = std::move(order);
   return computation;

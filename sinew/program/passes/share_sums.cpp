@@ -39,7 +39,7 @@ class Sharing {
  public:
   explicit Sharing(Polynomials& system) : system_(system), lists_(system) {
     std::size_t pairs = 0;
-    for (std::uint32_t i = 0; i < system.sums.size(); ++i) {
+    for (const std::uint32_t i : system.long_sums) {
       if (!has_pairs(i)) continue;
       lists_.count(system.sums[i]);
       pairs += std::size_t{system.sums[i].count} * (system.sums[i].count - 1) / 2;
@@ -47,9 +47,9 @@ class Sharing {
     first_added_ = lists_.size();
     sightings_.assign(std::bit_ceil(std::clamp(2 * pairs, kFewestSightings, kMostSightings)), 0);
     bool again = false;
-    for (std::uint32_t i = 0; i < system.sums.size(); ++i) again |= sight(i);
+    for (const std::uint32_t i : system.long_sums) again |= sight(i);
     if (!again) return;
-    for (std::uint32_t i = 0; i < system.sums.size(); ++i) enter(i);
+    for (const std::uint32_t i : system.long_sums) enter(i);
   }
 
   // Returns whether there was one.
@@ -186,6 +186,7 @@ class Sharing {
     append(pair.first, pair.first_size);
     append(pair.second, pair.opposite ? -pair.second_size : pair.second_size);
     const std::uint32_t shared = system_.add_sum(first, system_.sums[sums.front()].origin);
+    count_uses(shared, sums);
     std::uint32_t shared_list = FactorLists::kNone;
     for (const std::uint32_t i : sums) {
       leave(i);
@@ -210,6 +211,17 @@ class Sharing {
     const auto entry = sums_.find(pair);
     no_candidate(*entry);
     sums_.erase(entry);
+  }
+
+  // The live ones of these sums use the shared one from now on instead of its terms.
+  void count_uses(std::uint32_t shared, const Numbers& sums) {
+    const auto live = static_cast<std::uint32_t>(std::count_if(
+        sums.begin(), sums.end(), [this](std::uint32_t i) { return system_.uses[i] > 0; }));
+    if (live == 0) return;
+    system_.uses[shared] = live;
+    for (const Term& term : system_.terms_of(shared)) {
+      for (const std::uint32_t factor : system_.factors_of(term)) system_.uses[factor] -= live - 1;
+    }
   }
 
   void append(std::uint32_t list, double coefficient) {
