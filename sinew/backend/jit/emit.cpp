@@ -117,7 +117,7 @@ class Module {
     add_attribute(function, LLVMAttributeFunctionIndex, "nounwind");
     LLVMPositionBuilderAtEnd(
         builder_, LLVMAppendBasicBlockInContext(LLVMGetModuleContext(module_), function, "entry"));
-    return {builder_, function, repair_, options_.fuse, options_.broadcasts};
+    return {builder_, function, repair_, options_.fuse, options_.broadcasts, options_.indexes};
   }
 
   EmitOptions options_;

@@ -32,8 +32,8 @@ inline constexpr std::uint32_t kRegistersOf16 = 15;
 
 // What the machine can do.
 struct EmitOptions {
-  bool fuse = false;        // products that are used once into fused multiply-adds
-  bool broadcasts = false;  // see place.h
+  bool fuse = false;                         // products that are used once into fused multiply-adds
+  bool broadcasts = false, indexes = false;  // see place.h
   std::uint32_t registers = kRegistersOf16;
 };
 

@@ -62,6 +62,7 @@ Host host() {
   const bool is_arm = result.triple.rfind("aarch64", 0) == 0;
   result.emit.fuse = is_arm || has(",+fma,");
   result.emit.broadcasts = has(",+avx512vl,");
+  result.emit.indexes = result.triple.rfind("x86_64", 0) == 0;
   result.emit.registers = is_arm || has(",+avx512vl,") ? kRegistersOf32 : kRegistersOf16;
   return result;
 }

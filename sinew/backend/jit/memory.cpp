@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kNearBytes = 128;
 // Pointers to values that wait; each takes a register.
 constexpr std::size_t kMostPointers = 5;
+// Registers for addresses, but for those of the stack and one that is left to the generator.
+constexpr std::size_t kAddressRegisters = 13;
 
 unsigned lanes(LLVMTypeRef type) {
   return LLVMGetTypeKind(type) == LLVMVectorTypeKind ? LLVMGetVectorSize(type) : 1;
@@ -68,22 +70,21 @@ LLVMValueRef Memory::array(LLVMTypeRef number, std::size_t size) const {
 }
 
 void Memory::write_sines(const std::vector<LLVMValueRef>& packs) {
-  cosines_ = packs.size() * lanes(LLVMTypeOf(packs.front()));
+  sine_lanes_ = lanes(LLVMTypeOf(packs.front()));
+  cosines_ = packs.size() * sine_lanes_;
   sines_ = array(double_, 3 * cosines_);
   early_ = emit_sincos_to(place_, packs, sines_, in_, out_);
 }
 
 void Memory::begin() {
   inputs_at_ = {in_, 0};
-  results_at_ = {out_, 0};
   if (sizes_.inputs > near(number_)) inputs_at_ = hidden_middle(number_, in_, sizes_.inputs);
-  if (sizes_.results > near(number_)) results_at_ = hidden_middle(number_, out_, sizes_.results);
+  reach_results();
   if (sines_ != nullptr) sines_at_ = hidden_middle(double_, sines_, 2 * cosines_);
   if (sizes_.waiting == 0) return;
   const LLVMValueRef slots = array(number_, sizes_.waiting);
-  for (std::size_t at = 0; at < sizes_.waiting && waiting_at_.size() < kMostPointers;
-       at += 2 * near(number_)) {
-    waiting_at_.push_back(hidden(number_, {slots, 0}, at + near(number_)));
+  for (std::size_t k = 0; k < waiting_pointers(); ++k) {
+    waiting_at_.push_back(hidden(number_, {slots, 0}, (2 * k + 1) * near(number_)));
   }
 }
 
@@ -107,9 +108,44 @@ void Memory::keep(LLVMValueRef value, std::size_t slot) const {
   LLVMSetVolatile(store, true);
 }
 
+std::size_t Memory::waiting_pointers() const {
+  const std::size_t each = 2 * near(number_);
+  return std::min((sizes_.waiting + each - 1) / each, kMostPointers);
+}
+
+void Memory::reach_results() {
+  const std::size_t others = 3 + waiting_pointers();  // inputs, sines and constants have one each
+  const std::size_t registers = place_.indexes ? kAddressRegisters - others : 1;
+  results_plan_ =
+      plan_addresses(sizes_.results, static_cast<std::int32_t>(near(number_)), registers);
+  const Pointer begin = {out_, 0};
+  for (const std::int32_t base : results_plan_.bases) {
+    results_at_.push_back(base == 0 ? begin : hidden(number_, begin, base));
+  }
+  const LLVMTypeRef integer = LLVMInt64TypeInContext(context_);
+  for (const std::int32_t index : results_plan_.indices) {
+    results_index_.push_back(backend::hidden(
+        place_.builder, LLVMConstInt(integer, std::uint64_t{bytes_of(number_)} * index, false)));
+  }
+}
+
+LLVMValueRef Memory::result_address(std::size_t index) const {
+  const PlannedAddress planned = address_of(results_plan_, static_cast<std::int32_t>(near(number_)),
+                                            static_cast<std::uint32_t>(index));
+  Pointer from = results_at_[planned.base];
+  if (planned.scale != 0) {
+    const LLVMTypeRef byte = LLVMInt8TypeInContext(context_);
+    const LLVMTypeRef integer = LLVMInt64TypeInContext(context_);
+    LLVMValueRef distance = LLVMBuildMul(place_.builder, results_index_[planned.index],
+                                         LLVMConstInt(integer, planned.scale, false), "");
+    from.value = LLVMBuildGEP2(place_.builder, byte, from.value, &distance, 1, "");
+    from.at = index - planned.distance;
+  }
+  return address(number_, from, index);
+}
+
 void Memory::write_result(LLVMValueRef value, std::size_t index) const {
-  const LLVMValueRef store =
-      LLVMBuildStore(place_.builder, value, address(number_, results_at_, index));
+  const LLVMValueRef store = LLVMBuildStore(place_.builder, value, result_address(index));
   LLVMSetAlignment(store, bytes_of(number_));
 }
 
@@ -131,10 +167,11 @@ LLVMValueRef Memory::cosine(std::size_t angle, LLVMTypeRef type) const {
 
 LLVMValueRef Memory::lanes_of(const std::vector<LLVMValueRef>& packs, std::size_t angle,
                               LLVMTypeRef type) const {
-  const unsigned width = lanes(LLVMTypeOf(packs.front()));
-  const LLVMValueRef pack = packs[angle / width];
+  const LLVMValueRef pack = packs[angle / sine_lanes_];
   const LLVMTypeRef index = LLVMInt32TypeInContext(context_);
-  const auto lane = [&](std::size_t k) { return LLVMConstInt(index, angle % width + k, false); };
+  const auto lane = [&](std::size_t k) {
+    return LLVMConstInt(index, angle % sine_lanes_ + k, false);
+  };
   LLVMValueRef value = nullptr;
   if (lanes(type) == 1) {
     value = LLVMBuildExtractElement(place_.builder, pack, lane(0), "");
@@ -147,10 +184,16 @@ LLVMValueRef Memory::lanes_of(const std::vector<LLVMValueRef>& packs, std::size_
   return Ir(place_.builder, type, false).from_double(value);
 }
 
+bool Memory::is_in_register(std::size_t angle) const {
+  return early_.sine[angle / sine_lanes_] != nullptr;
+}
+
 LLVMValueRef Memory::early_sine(std::size_t angle, LLVMTypeRef type) const {
+  if (!is_in_register(angle)) return sine(angle, type);
   return lanes_of(early_.sine, angle, type);
 }
 LLVMValueRef Memory::early_cosine(std::size_t angle, LLVMTypeRef type) const {
+  if (!is_in_register(angle)) return cosine(angle, type);
   return lanes_of(early_.cosine, angle, type);
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sinew/backend/jit/address_plan.h"
 #include "sinew/backend/jit/place.h"
 #include "sinew/backend/jit/sincos.h"
 
@@ -16,7 +17,8 @@ namespace sinew::backend {
 
 // Numbers of each kind.
 struct MemorySizes {
-  std::size_t inputs = 0, results = 0, waiting = 0;
+  std::size_t inputs = 0, waiting = 0;
+  std::vector<std::uint32_t> results;  // those that write_result is called for, in any order
 };
 
 class Memory {
@@ -36,7 +38,7 @@ class Memory {
   LLVMValueRef waiting(std::size_t slot, LLVMTypeRef type) const;
   LLVMValueRef constant(const std::vector<double>& lanes);
 
-  // From the register that it was computed in: sooner there than in memory.
+  // From the register that it was computed in, if it is in one: sooner there than in memory.
   LLVMValueRef early_sine(std::size_t angle, LLVMTypeRef type) const;
   LLVMValueRef early_cosine(std::size_t angle, LLVMTypeRef type) const;
 
@@ -60,8 +62,12 @@ class Memory {
   Pointer hidden_middle(LLVMTypeRef number, LLVMValueRef array, std::size_t size) const;
   LLVMValueRef array(LLVMTypeRef number, std::size_t size) const;
   const Pointer& near_slot(std::size_t slot) const;
+  std::size_t waiting_pointers() const;
+  void reach_results();
+  LLVMValueRef result_address(std::size_t index) const;
   LLVMValueRef lanes_of(const std::vector<LLVMValueRef>& packs, std::size_t angle,
                         LLVMTypeRef type) const;
+  bool is_in_register(std::size_t angle) const;
   LLVMValueRef saved_sine(std::size_t place, LLVMTypeRef type) const;
   LLVMTypeRef of_doubles(LLVMTypeRef type) const;
   std::size_t near(LLVMTypeRef number) const;  // numbers to one side of a pointer
@@ -74,7 +80,11 @@ class Memory {
   LLVMValueRef sines_ = nullptr;
   std::size_t cosines_ = 0;  // where they begin behind the sines
   SincosValues early_;
-  Pointer inputs_at_, results_at_, sines_at_, constants_at_;
+  unsigned sine_lanes_ = 1;  // of those vectors
+  Pointer inputs_at_, sines_at_, constants_at_;
+  AddressPlan results_plan_;
+  std::vector<Pointer> results_at_;          // the plan's bases
+  std::vector<LLVMValueRef> results_index_;  // and its indices, in bytes
   std::vector<Pointer> waiting_at_;
   LLVMValueRef table_ = nullptr;  // stands for that of the constants until they are known
   std::vector<double> constants_;

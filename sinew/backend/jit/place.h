@@ -11,6 +11,7 @@ struct Place {
   LLVMValueRef repair = nullptr;  // see sincos.h
   bool fuse = false;              // products into sums
   bool broadcasts = false;  // instructions read one number from memory for all lanes of a vector
+  bool indexes = false;     // addresses may be base + 1, 2, 4 or 8 times an index + one byte
 };
 
 // Bytes of a float or a double.

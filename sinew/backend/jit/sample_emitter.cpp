@@ -10,6 +10,7 @@
 #include "sinew/backend/jit/constant_results.h"
 #include "sinew/backend/jit/ir.h"
 #include "sinew/backend/jit/memory.h"
+#include "sinew/backend/jit/result_pairs.h"
 #include "sinew/backend/jit/sample_steps.h"
 #include "sinew/program/limbs/limb_signs.h"
 
@@ -42,15 +43,17 @@ class SampleEmitter {
 
   void emit(std::uint32_t registers) {
     const std::vector<LLVMValueRef> packs = packs_of_angles();
-    sort_results();
-    const SampleSteps steps(program_, emitters_, later_);
+    const std::vector<ResultPair> pairs = pair_results(program_, statements());
+    sort_results(pairs);
+    const SampleSteps steps(program_, emitters_, pairs, later_);
     steps_ = &steps;
     plan_ = plan_registers(steps.registers(), registers, kLongest);
-    Memory memory(place_, number_, {program_.inputs, program_.results.size(), plan_.size});
+    Memory memory(place_, number_, {program_.inputs, plan_.size, written_});
     memory_ = &memory;
     if (!packs.empty()) memory.write_sines(packs);
-    memory.begin();
+    // Its loops need registers for addresses, too: the others come afterwards.
     store_constant_results(place_.builder, number_, memory.results(), constants_);
+    memory.begin();
     for (step_ = 0; step_ < steps.nodes().size(); ++step_) {
       const auto [region, node] = steps.nodes()[step_];
       compute(region, node);
@@ -73,14 +76,35 @@ class SampleEmitter {
     return program_.regions[region].computation.dag.node(node);
   }
 
+  std::vector<std::vector<std::uint32_t>> statements() const {
+    std::vector<std::vector<std::uint32_t>> of_regions;
+    for (const ComputationEmitter& emitter : emitters_) {
+      of_regions.push_back(emitter.order());
+      std::erase_if(of_regions.back(),
+                    [&](std::uint32_t node) { return !emitter.is_statement(node); });
+    }
+    return of_regions;
+  }
+
   // Which results are written when, and those that are no operations.
-  void sort_results() {
+  void sort_results(const std::vector<ResultPair>& pairs) {
     results_of_.resize(program_.regions.size());
+    pairs_of_.resize(program_.regions.size());
     constants_.resize(program_.results.size());
+    std::vector<bool> is_in_pair(program_.results.size(), false);
+    for (const ResultPair& pair : pairs) {
+      pairs_of_[pair.region][pair.later].push_back(pair);
+      for (const ResultPair::Place& place : pair.places) {
+        is_in_pair[place.left] = is_in_pair[place.left + 1] = true;
+        written_.push_back(place.left);
+      }
+    }
     for (std::uint32_t i = 0; i < program_.results.size(); ++i) {
+      if (is_in_pair[i]) continue;
       const LimbSource& source = program_.results[i];
       constants_[i] = constant(source);
       if (constants_[i]) continue;
+      written_.push_back(i);
       if (source.kind == LimbSource::Kind::kRegion) {
         const Ref result = program_.regions[source.region].computation.results[source.index];
         if (emitters_[source.region].is_statement(result.node())) {
@@ -170,6 +194,39 @@ class SampleEmitter {
     if (slot != kNoSlot) memory_->keep(value, slot);
     const auto results = results_of_[region].find(node);
     if (results != results_of_[region].end()) write_results(value, results->second);
+    const auto pairs = pairs_of_[region].find(node);
+    if (pairs == pairs_of_[region].end()) return;
+    for (const ResultPair& pair : pairs->second) write_pair(pair);
+  }
+
+  // Both are there now.
+  void write_pair(const ResultPair& pair) {
+    ComputationEmitter& emitter = emitters_[pair.region];
+    const LLVMValueRef left = emitter.value(pair.left), right = emitter.value(pair.right);
+    const unsigned width = program::vector_width(program_.regions[pair.region].lanes);
+    for (const ResultPair::Place& place : pair.places) {
+      memory_->write_result(width == 1 ? in_vector({left, right})
+                                       : shuffled(left, right, {place.lane, width + place.lane}),
+                            place.left);
+    }
+  }
+
+  LLVMValueRef in_vector(const std::vector<LLVMValueRef>& numbers) const {
+    LLVMValueRef vector =
+        LLVMGetUndef(LLVMVectorType(number_, static_cast<unsigned>(numbers.size())));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      vector = LLVMBuildInsertElement(place_.builder, vector, numbers[i], integer(i), "");
+    }
+    return vector;
+  }
+
+  LLVMValueRef shuffled(LLVMValueRef a, LLVMValueRef b, const std::vector<unsigned>& lanes) const {
+    const LLVMTypeRef index = LLVMInt32TypeInContext(LLVMGetTypeContext(number_));
+    std::vector<LLVMValueRef> chosen;
+    for (const unsigned lane : lanes) chosen.push_back(LLVMConstInt(index, lane, false));
+    return LLVMBuildShuffleVector(
+        place_.builder, a, b, LLVMConstVector(chosen.data(), static_cast<unsigned>(chosen.size())),
+        "");
   }
 
   // Of a node that has just been computed. A vector of which several lanes are wanted negative is
@@ -301,7 +358,10 @@ class SampleEmitter {
   std::vector<ComputationEmitter> emitters_;                  // of the regions
   std::vector<std::map<std::uint32_t, std::size_t>> angles_;  // [region]: node, its place
   std::vector<std::map<std::uint32_t, std::vector<std::uint32_t>>>
-      results_of_;                                // [region]: of a node
+      results_of_;  // [region]: of a node
+  std::vector<std::map<std::uint32_t, std::vector<ResultPair>>>
+      pairs_of_;                                  // [region]: of the later node
+  std::vector<std::uint32_t> written_;            // where a store begins
   std::vector<std::optional<double>> constants_;  // results
   std::vector<std::uint32_t> later_;              // other results, written at the end
   const SampleSteps* steps_ = nullptr;

@@ -36,12 +36,16 @@ std::vector<std::uint32_t> first_values(const LimbProgram& program) {
 
 SampleSteps::SampleSteps(const LimbProgram& program,
                          const std::vector<ComputationEmitter>& emitters,
+                         const std::vector<ResultPair>& pairs,
                          const std::vector<std::uint32_t>& later)
     : program_(program),
       emitters_(emitters),
       first_(first_values(program)),
       defined_(first_.back(), false),
       registers_(first_.back()) {
+  for (const ResultPair& pair : pairs) {
+    stored_with_[value(pair.region, pair.later)].push_back(value(pair.region, pair.earlier()));
+  }
   for (std::uint32_t region = 0; region < program.regions.size(); ++region) {
     for (const std::uint32_t node : emitters[region].order()) {
       if (emitters[region].is_statement(node)) add(region, node);
@@ -67,6 +71,10 @@ void SampleSteps::add(std::uint32_t region, std::uint32_t node) {
 
 void SampleSteps::define(std::uint32_t region, std::uint32_t node) {
   const std::uint32_t defined = value(region, node);
+  const auto earlier = stored_with_.find(defined);
+  if (earlier != stored_with_.end()) {
+    for (const std::uint32_t read : earlier->second) registers_.read(read);
+  }
   registers_.define(defined);
   registers_.set_width(
       defined, static_cast<std::uint8_t>(program::vector_width(program_.regions[region].lanes)));

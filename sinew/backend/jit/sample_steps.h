@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "sinew/backend/jit/computation_emitter.h"
 #include "sinew/backend/jit/register_plan.h"
+#include "sinew/backend/jit/result_pairs.h"
 #include "sinew/program/limbs/limb_program.h"
 
 namespace sinew::backend {
@@ -25,9 +27,10 @@ RegionInput kind_of_input(const program::LimbRegion& region, std::uint32_t input
 
 class SampleSteps {
  public:
-  // `emitters`: of the regions. `later`: results that are written at the end, in a step of its own.
+  // `emitters`: of the regions. `pairs`: are written when the later one is computed. `later`:
+  // results that are written at the end, in a step of its own.
   SampleSteps(const program::LimbProgram& program, const std::vector<ComputationEmitter>& emitters,
-              const std::vector<std::uint32_t>& later);
+              const std::vector<ResultPair>& pairs, const std::vector<std::uint32_t>& later);
 
   // The nodes in the order in which they are computed, gathered inputs among them.
   const std::vector<RegionNode>& nodes() const { return nodes_; }
@@ -48,7 +51,8 @@ class SampleSteps {
   const std::vector<ComputationEmitter>& emitters_;
   std::vector<std::uint32_t> first_;  // value of each region's first node; and behind the last
   std::vector<RegionNode> nodes_;
-  std::vector<bool> defined_;  // values
+  std::vector<bool> defined_;                                        // values
+  std::map<std::uint32_t, std::vector<std::uint32_t>> stored_with_;  // of a value: earlier ones
   ValueSteps registers_;
 };
 

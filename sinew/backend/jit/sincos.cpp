@@ -10,6 +10,8 @@ namespace sinew::backend {
 namespace {
 
 constexpr double kLargestAngle = 1e5;
+// Vectors of angles from which on a loop computes their sines.
+constexpr std::size_t kFewestForLoop = 3;
 
 constexpr double kTwoOverPi = 6.36619772367581382433e-01;
 // Adding and taking away 1.5 * 2^52 rounds to an integer and leaves it in the low bits.
@@ -118,6 +120,7 @@ class Repair {
   }
   // After the end: the value, or what the repair has made of it.
   void merge(LLVMValueRef& value, LLVMValueRef repaired) const {
+    if (value == nullptr) return;
     const LLVMValueRef phi = LLVMBuildPhi(builder_, LLVMTypeOf(value), "");
     LLVMValueRef incoming[] = {value, repaired};
     LLVMBasicBlockRef blocks[] = {fast_, slow_};
@@ -140,6 +143,7 @@ class Repair {
 void store_values(const Ir& ir, const SincosValues& values, LLVMValueRef array) {
   const std::size_t n = values.sine.size();
   for (std::size_t i = 0; i < n; ++i) {
+    if (values.sine[i] == nullptr) continue;
     ir.store_element(values.sine[i], array, i);
     ir.store_element(values.cosine[i], array, n + i);
   }
@@ -149,13 +153,16 @@ void store_angles(const Ir& ir, const std::vector<LLVMValueRef>& angles, LLVMVal
     ir.store_element(angles[i], array, 2 * angles.size() + i);
   }
 }
-SincosValues load_values(const Ir& ir, LLVMValueRef array, std::size_t n) {
-  SincosValues values;
+// Those that are there in `values`, once more.
+SincosValues load_values(const Ir& ir, LLVMValueRef array, const SincosValues& values) {
+  SincosValues loaded = values;
+  const std::size_t n = values.sine.size();
   for (std::size_t i = 0; i < n; ++i) {
-    values.sine.push_back(ir.load_element(array, i));
-    values.cosine.push_back(ir.load_element(array, n + i));
+    if (values.sine[i] == nullptr) continue;
+    loaded.sine[i] = ir.load_element(array, i);
+    loaded.cosine[i] = ir.load_element(array, n + i);
   }
-  return values;
+  return loaded;
 }
 
 // A table of constants behind a pointer of its own: an instruction takes one number from there for
@@ -203,6 +210,57 @@ LLVMValueRef fast_sincos_from_table(const Place& place, const std::vector<LLVMVa
   return covered;
 }
 
+// Of the sum of the squares: far is what the method may not cover, and some of what it does.
+LLVMValueRef all_are_near(const Ir& ir, const std::vector<LLVMValueRef>& angles) {
+  LLVMValueRef sum = ir.multiply(angles.front(), angles.front());
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    sum = ir.multiply_add(angles[i], angles[i], sum);
+  }
+  return ir.magnitude_at_most(sum, kLargestAngle * kLargestAngle);
+}
+
+// The last on its own, for what waits for it; the others, whose angles are in the array, by a loop.
+void fast_sincos_in_loop(const Place& place, LLVMValueRef last, std::size_t n, LLVMValueRef array,
+                         SincosValues& values) {
+  const LLVMTypeRef type = LLVMTypeOf(last);
+  const LLVMContextRef context = LLVMGetTypeContext(type);
+  const LLVMTypeRef integer = LLVMInt64TypeInContext(context);
+  ConstantTable table(place);
+  const Ir ir(place.builder, type, place.fuse,
+              [&](std::uint64_t bits, LLVMTypeRef lane) { return table.load(bits, lane); });
+  values.sine.resize(n, nullptr);
+  values.cosine.resize(n, nullptr);
+  const Pair pair = fast_sincos(ir, last);
+  values.sine.back() = pair.sine;
+  values.cosine.back() = pair.cosine;
+  store_values(ir, values, array);
+
+  const LLVMBasicBlockRef before = LLVMGetInsertBlock(place.builder);
+  const LLVMBasicBlockRef loop = LLVMAppendBasicBlockInContext(context, place.function, "sines");
+  const LLVMBasicBlockRef after = LLVMAppendBasicBlockInContext(context, place.function, "");
+  LLVMBuildBr(place.builder, loop);
+  LLVMPositionBuilderAtEnd(place.builder, loop);
+  const LLVMValueRef at = LLVMBuildPhi(place.builder, integer, "");
+  const auto element = [&](std::size_t from) {
+    LLVMValueRef index = LLVMBuildAdd(place.builder, at, LLVMConstInt(integer, from, false), "");
+    return LLVMBuildInBoundsGEP2(place.builder, type, array, &index, 1, "");
+  };
+  const Pair next = fast_sincos(ir, LLVMBuildLoad2(place.builder, type, element(2 * n), ""));
+  LLVMBuildStore(place.builder, next.sine, element(0));
+  LLVMBuildStore(place.builder, next.cosine, element(n));
+  LLVMValueRef begin = LLVMConstInt(integer, 0, false);
+  LLVMValueRef following = LLVMBuildAdd(place.builder, at, LLVMConstInt(integer, 1, false), "");
+  LLVMBasicBlockRef from_before = before, from_loop = loop;
+  LLVMAddIncoming(at, &begin, &from_before, 1);
+  LLVMAddIncoming(at, &following, &from_loop, 1);
+  LLVMBuildCondBr(
+      place.builder,
+      LLVMBuildICmp(place.builder, LLVMIntNE, following, LLVMConstInt(integer, n - 1, false), ""),
+      loop, after);
+  LLVMPositionBuilderAtEnd(place.builder, after);
+  table.end();
+}
+
 }  // namespace
 
 SincosValues emit_sincos(LLVMBuilderRef builder, LLVMValueRef function, LLVMValueRef repair,
@@ -219,7 +277,7 @@ SincosValues emit_sincos(LLVMBuilderRef builder, LLVMValueRef function, LLVMValu
   store_angles(ir, angles, array);
   const LLVMValueRef none = LLVMConstNull(LLVMTypeOf(array));
   slow.call(repair, none, none, array, n * ir.lanes());
-  const SincosValues repaired = load_values(ir, array, n);
+  const SincosValues repaired = load_values(ir, array, values);
   slow.end();
   slow.merge(values, repaired);
   return values;
@@ -229,16 +287,24 @@ SincosValues emit_sincos_to(const Place& place, const std::vector<LLVMValueRef>&
                             LLVMValueRef array, LLVMValueRef& first, LLVMValueRef& second) {
   SincosValues values;
   const Ir ir(place.builder, LLVMTypeOf(angles.front()), place.fuse);
-  const LLVMValueRef covered = place.broadcasts ? fast_sincos_from_table(place, angles, values)
-                                                : fast_sincos(ir, place.builder, angles, values);
   const std::size_t n = angles.size();
-  store_values(ir, values, array);
+  const bool loops = place.broadcasts && n >= kFewestForLoop;
+  LLVMValueRef covered = nullptr;
+  if (loops) {
+    store_angles(ir, angles, array);
+    covered = ir.all(all_are_near(ir, angles));
+    fast_sincos_in_loop(place, angles.back(), n, array, values);
+  } else {
+    covered = place.broadcasts ? fast_sincos_from_table(place, angles, values)
+                               : fast_sincos(ir, place.builder, angles, values);
+    store_values(ir, values, array);
+  }
   const Repair slow(place.builder, place.function, covered);
-  store_angles(ir, angles, array);
+  if (!loops) store_angles(ir, angles, array);
   const LLVMValueRef both = slow.call(place.repair, first, second, array, n * ir.lanes());
   const LLVMValueRef again[] = {LLVMBuildExtractValue(place.builder, both, 0, ""),
                                 LLVMBuildExtractValue(place.builder, both, 1, "")};
-  const SincosValues repaired = load_values(ir, array, n);
+  const SincosValues repaired = load_values(ir, array, values);
   slow.end();
   slow.merge(first, again[0]);
   slow.merge(second, again[1]);

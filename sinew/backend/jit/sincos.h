@@ -19,7 +19,7 @@ namespace sinew::backend {
 inline constexpr unsigned kSineLanes = 8;  // angles in a vector of doubles
 
 struct SincosValues {
-  std::vector<LLVMValueRef> sine, cosine;  // as wide as the angles
+  std::vector<LLVMValueRef> sine, cosine;  // as wide as the angles; null: in memory only
 };
 
 // `angles` are doubles or vectors of doubles, all of the same type. Leaves the builder in the block
@@ -29,8 +29,9 @@ SincosValues emit_sincos(LLVMBuilderRef builder, LLVMValueRef function, LLVMValu
 
 // The same of vectors, all as wide, written to an array: all sines, behind them all cosines. Behind
 // those it has as many numbers again for the angles, should they need repair, which happens in
-// place. Two pointers that are needed afterwards come back from it, so that they need be kept
-// nowhere where it is not called.
+// place. Where there are many of them, all but the last vector are computed by a loop, and are in
+// the array only: the copies of the code would be 180 bytes each. Two pointers that are needed
+// afterwards come back from it, so that they need be kept nowhere where it is not called.
 SincosValues emit_sincos_to(const Place& place, const std::vector<LLVMValueRef>& angles,
                             LLVMValueRef array, LLVMValueRef& first, LLVMValueRef& second);
 

@@ -100,7 +100,7 @@ TEST_P(Jit, AgreesWithTheInterpreterOnEveryOperation) {
 }
 
 TEST_P(Jit, SinesAndCosinesAreWithinOneUlpOfTheExactValueUpTo1e5) {
-  for (const std::uint32_t angles : {1u, 2u, 5u, 8u, 13u}) {
+  for (const std::uint32_t angles : {1u, 2u, 5u, 8u, 13u, 30u}) {
     const Computation computation = sines_and_cosines(angles);
     const JitFunction function = jit_compile(computation, {GetParam(), ""});
     std::mt19937_64 random(angles);
@@ -122,28 +122,50 @@ TEST_P(Jit, SinesAndCosinesAreWithinOneUlpOfTheExactValueUpTo1e5) {
   }
 }
 
+// Of many angles most are computed by a loop.
 TEST_P(Jit, AnglesBeyondTheFastRangeInfinitiesAndNanComeFromLibm) {
-  const Computation computation = sines_and_cosines(3);
-  const JitFunction function = jit_compile(computation, {GetParam(), ""});
   const double odd[] = {1e9, -3e17, std::numeric_limits<double>::infinity(),
                         -std::numeric_limits<double>::infinity(),
                         std::numeric_limits<double>::quiet_NaN()};
-  for (const double x : odd) {
-    const double in[] = {0.5, x, -0.25};
-    double out[6];
-    function(in, out);
-    if (std::isfinite(x)) {
-      EXPECT_EQ(out[2], std::sin(x));
-      EXPECT_EQ(out[3], std::cos(x));
-    } else {
-      EXPECT_TRUE(std::isnan(out[2]));
-      EXPECT_TRUE(std::isnan(out[3]));
+  for (const std::uint32_t angles : {3u, 30u}) {
+    const JitFunction function = jit_compile(sines_and_cosines(angles), {GetParam(), ""});
+    std::vector<double> near(angles), plain(2 * angles);
+    for (std::uint32_t i = 0; i < angles; ++i) near[i] = 0.5 - 0.25 * i;
+    function(near.data(), plain.data());
+    for (const double x : odd) {
+      for (std::uint32_t at = 0; at < angles; ++at) {
+        std::vector<double> in = near, out(2 * angles);
+        in[at] = x;
+        function(in.data(), out.data());
+        if (std::isfinite(x)) {
+          EXPECT_EQ(out[2 * at], std::sin(x));
+          EXPECT_EQ(out[2 * at + 1], std::cos(x));
+        } else {
+          EXPECT_TRUE(std::isnan(out[2 * at]));
+          EXPECT_TRUE(std::isnan(out[2 * at + 1]));
+        }
+        // Its neighbours are not touched.
+        for (std::uint32_t i = 0; i < 2 * angles; ++i) {
+          if (i / 2 == at) continue;
+          EXPECT_EQ(out[i], plain[i]) << i << " of " << angles;
+        }
+      }
     }
-    // Its neighbours are not touched.
-    double plain[6];
-    const double near[] = {0.5, 0.0, -0.25};
-    function(near, plain);
-    for (const int i : {0, 1, 4, 5}) EXPECT_EQ(out[i], plain[i]);
+  }
+}
+
+// The loop asks for the sum of all squares, which is far where no angle is.
+TEST_P(Jit, ManyAnglesAtTheEndOfTheFastRangeAreAsExact) {
+  const std::uint32_t angles = 30;
+  const JitFunction function = jit_compile(sines_and_cosines(angles), {GetParam(), ""});
+  std::vector<double> in(angles), out(2 * angles);
+  for (std::uint32_t i = 0; i < angles; ++i) in[i] = (i % 2 == 0 ? 1e5 : -1e5) + 0.1 * i;
+  for (double& x : in) x = std::clamp(x, -1e5, 1e5);
+  function(in.data(), out.data());
+  for (std::uint32_t i = 0; i < angles; ++i) {
+    const long double x = in[i];
+    EXPECT_LE(ulps(out[2 * i], std::sin(x)), 1.0);
+    EXPECT_LE(ulps(out[2 * i + 1], std::cos(x)), 1.0);
   }
 }
 
