@@ -86,16 +86,22 @@ Table read_csv(std::string_view text, const std::string& file) {
   return table;
 }
 
-std::string write_csv(const Table& table) {
+std::string csv_header(const std::vector<std::string>& columns) {
+  return fmt::format("{}\n", fmt::join(columns, ","));
+}
+
+std::string csv_rows(std::span<const double> values, std::size_t columns) {
   fmt::memory_buffer text;
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "{}\n", fmt::join(table.columns, ","));
-  const std::size_t width = table.columns.size();
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const double* const first = table.values.data() + row * width;
-    fmt::format_to(out, "{}\n", fmt::join(first, first + width, ","));
+  for (; columns > 0 && values.size() >= columns; values = values.subspan(columns)) {
+    const auto row = values.first(columns);
+    fmt::format_to(out, "{}\n", fmt::join(row.begin(), row.end(), ","));
   }
   return fmt::to_string(text);
+}
+
+std::string write_csv(const Table& table) {
+  return csv_header(table.columns) + csv_rows(table.values, table.columns.size());
 }
 
 }  // namespace sinew::cli

@@ -2,6 +2,7 @@
 // then one line of numbers for each evaluation. Numbers are written so that they read back exactly.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,5 +20,8 @@ struct Table {
 Table read_csv(std::string_view text, const std::string& file);
 
 std::string write_csv(const Table& table);
+// Its two parts, for tables that are written while they grow.
+std::string csv_header(const std::vector<std::string>& columns);
+std::string csv_rows(std::span<const double> values, std::size_t columns);
 
 }  // namespace sinew::cli

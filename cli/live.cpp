@@ -1,14 +1,19 @@
 #include "live.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <sstream>
 #include <thread>
 
 #include "application.h"
+#include "interruption.h"
 #include "live_report.h"
 #include "output.h"
 #include "pipeline.h"
@@ -25,9 +30,6 @@ namespace sinew::cli {
 namespace {
 
 using runtime::Host;
-
-volatile std::sig_atomic_t interrupted = 0;
-void interrupt(int) { interrupted = 1; }
 
 constexpr std::chrono::milliseconds kLook{20};  // how often the loop is looked at from outside
 
@@ -118,38 +120,60 @@ struct LateSwap {
   }
 };
 
-// Until it has run for as long as asked, is interrupted, or faults. False: a swap was refused.
-bool run_clocked(Host& host, LateSwap& swap) {
-  bool good = true;
-  host.start();
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
-  while (interrupted == 0 && host.state() == runtime::State::kRunning && !host.has_ended()) {
-    if (swap.is_pending() && host.statistics().cycles >= swap.cycle) good = swap.happen(host);
-    std::this_thread::sleep_for(kLook);
-  }
-  host.stop();
-  return good;
+struct Outcome {
+  bool swapped = true;     // false: a swap was refused
+  bool cut_short = false;  // by a signal, before it has run for as long as asked
+};
+
+// Where nobody reads what is printed any more, or it cannot be kept, there is no use in going on.
+std::atomic<int> print_fault = 0;
+
+void end_for_output(int fault) {
+  print_fault = fault;
+  interrupt(SIGPIPE);
 }
 
-bool run_lockstep(Host& host, LateSwap& swap, std::uint64_t cycles) {
-  bool good = true;
+void print_line(const std::string& line) {
+  if (print_fault != 0) return;
+  if (std::fputs((line + "\n").c_str(), stdout) != EOF && std::fflush(stdout) == 0) return;
+  end_for_output(errno);
+}
+
+// Until it has run for as long as asked, is interrupted, or faults.
+Outcome run_clocked(Host& host, LateSwap& swap, bool prints) {
+  Outcome outcome;
+  host.start();
+  while (interruption() == 0 && host.state() == runtime::State::kRunning && !host.has_ended()) {
+    if (swap.is_pending() && host.statistics().cycles >= swap.cycle)
+      outcome.swapped = swap.happen(host);
+    if (prints && print_fault == 0 && nobody_reads_output()) end_for_output(EPIPE);
+    std::this_thread::sleep_for(kLook);
+  }
+  outcome.cut_short = interruption() != 0 && !host.has_ended();
+  host.stop();
+  return outcome;
+}
+
+Outcome run_lockstep(Host& host, LateSwap& swap, std::uint64_t cycles) {
+  Outcome outcome;
   for (const auto& [iri, robot] : host.bindings().robots) robot->start();
   if (host.bindings().recorder) host.bindings().recorder->start();
   // Faster than the clock, but not faster than the log is written.
   constexpr std::uint64_t kCyclesAtOnce = 2000;
-  for (std::uint64_t done = 0;
-       done < cycles && host.state() != runtime::State::kFaulted && !host.has_ended();) {
-    if (swap.is_pending() && done >= swap.cycle) good = swap.happen(host);
+  std::uint64_t done = 0;
+  while (done < cycles && interruption() == 0 && host.state() != runtime::State::kFaulted &&
+         !host.has_ended()) {
+    if (swap.is_pending() && done >= swap.cycle) outcome.swapped = swap.happen(host);
     std::uint64_t now = std::min(kCyclesAtOnce, cycles - done);
     if (swap.is_pending()) now = std::min(now, swap.cycle - done);
     host.step(now);
     done += now;
     if (host.bindings().recorder) host.bindings().recorder->drain();
   }
+  outcome.cut_short = interruption() != 0 && done < cycles;
   for (const auto& [iri, robot] : host.bindings().robots) robot->stop();
   if (host.bindings().recorder) host.bindings().recorder->stop();
-  return good;
+  return outcome;
 }
 
 void check(const LiveOptions& options) {
@@ -175,15 +199,18 @@ bool commands(const PlannedTask& task) {
                      [](const program::External& each) { return each.operation == "write"; });
 }
 
+std::string ending() {
+  if (print_fault == 0) return std::string(signal_name(interruption()));
+  return std::string("standard output, which cannot be written: ") + std::strerror(print_fault);
+}
+
 // The robot that all tasks speak to.
 std::shared_ptr<runtime::RobotInterface> robot_of(Models& models, const QueryOptions& query,
                                                   const LiveOptions& options, double period_s,
                                                   runtime::Recorder* recorder) {
   if (options.robot == "print") {
-    robot::PrintOptions print{start_of(options), [](const std::string& line) {
-                                std::cout << line << '\n' << std::flush;
-                              }};
-    return std::make_shared<robot::Print>(print);
+    outlive_broken_pipes();
+    return std::make_shared<robot::Print>(robot::PrintOptions{start_of(options), print_line});
   }
   if (options.robot == "mujoco") {
     const auto robot = simulated(models, query, options, period_s);
@@ -191,8 +218,11 @@ std::shared_ptr<runtime::RobotInterface> robot_of(Models& models, const QueryOpt
     return robot;
   }
   const model::Tree tree = robot_tree(models, query);
-  const auto robot = std::make_shared<robot::Udp>(tree, models.store.terms(),
-                                                  robot::UdpOptions{options.local, options.remote});
+  robot::UdpOptions udp;
+  udp.local = options.local;
+  udp.remote = options.remote;
+  udp.gives_up = [] { return interruption() != 0; };
+  const auto robot = std::make_shared<robot::Udp>(tree, models.store.terms(), udp);
   std::cerr << "measurements are awaited at port " << robot->local_port() << "\n";
   return robot;
 }
@@ -359,13 +389,28 @@ int run_live(const ModelOptions& files, const QueryOptions& query, const LiveOpt
   }
   set_points_of(host, application, options, swap);
   host.configure();
-  const bool swapped =
-      options.lockstep ? run_lockstep(host, swap, host_options.cycles) : run_clocked(host, swap);
+  const Interruptible interruptible;
+  Outcome outcome;
+  try {
+    outcome = options.lockstep ? run_lockstep(host, swap, host_options.cycles)
+                               : run_clocked(host, swap, options.robot == "print");
+  } catch (const Error& error) {
+    if (interruption() == 0) throw;
+    std::cerr << error.what() << "\nended by " << signal_name(interruption())
+              << " before the first cycle\n";
+    return interrupted_exit_code(interruption());
+  }
+  if (interruption() != 0) std::cerr << "ended by " << ending() << "\n";
   report(host, recorder.get(), !options.lockstep);
   const bool never = swap.is_pending();
   if (never) std::cerr << "the run ended before --swap-at\n";
   const bool lost = recorder && !recorder->report().fault.empty();
-  return host.state() == runtime::State::kFaulted || lost || !swapped || never ? kFault : kOk;
+  if (host.state() == runtime::State::kFaulted || lost || !outcome.swapped) return kFault;
+  if (outcome.cut_short && print_fault != 0 && print_fault != EPIPE) return kFault;
+  // Without --for a signal is how a run ends.
+  if (outcome.cut_short && (options.seconds > 0 || print_fault != 0))
+    return interrupted_exit_code(interruption());
+  return never ? kFault : kOk;
 }
 
 }  // namespace sinew::cli

@@ -27,8 +27,9 @@ void add_live_options(CLI::App& app, LiveOptions& options);
 // no use for one of them; empty if nothing is.
 std::string misplaced_option(const CLI::App& app, const std::string& robot);
 
-// Runs until it is over, interrupted or faulted; statistics go to standard error. Returns the exit
-// code: 1 after a fault. Throws Error.
+// Runs until it is over, interrupted (interruption.h) or faulted; statistics go to standard error.
+// Returns the exit code: 1 after a fault, 128 + the signal where one cut short what --for asks.
+// Throws Error.
 int run_live(const ModelOptions& files, const QueryOptions& query, const LiveOptions& options,
              bool interpret);
 

@@ -48,7 +48,8 @@ void print_help(std::ostream& out) {
         << "\n            sinew " << command.name << " " << command.usage << "\n";
   }
   out << "\nsinew --version names the version\n"
-         "exit code: 0 done, 1 the models or the query are at fault, 2 bad usage\n";
+         "exit code: 0 done, 1 the models or the query are at fault, 2 bad usage, 128 + n ended by "
+         "signal n\n";
 }
 
 }  // namespace

@@ -19,39 +19,49 @@ namespace {
 
 }  // namespace
 
-void write_output(const std::string& path, const std::string& text) {
-  if (path.empty()) {
-    std::cout << text << std::flush;
-    if (!std::cout) fail("standard output", "cannot be written");
-    return;
-  }
+Output::Output(const std::string& path) : path_(path), out_(&std::cout) {
+  if (path.empty()) return;
   namespace fs = std::filesystem;
   const fs::path target(path);
   std::error_code ignored;
   if (target.has_parent_path()) fs::create_directories(target.parent_path(), ignored);
   // A device or a pipe is written to; only a file may be replaced by another one.
-  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
-    std::ofstream file(target, std::ios::binary);
-    file << text << std::flush;
-    if (!file) fail(path, "cannot be written");
-    return;
-  }
-  const fs::path part = target.string() + ".part";
-  {
-    std::ofstream file(part, std::ios::binary);
-    file << text << std::flush;
-    if (!file) {
-      fs::remove(part, ignored);
-      fail(path, "cannot be written");
-    }
-  }
-  std::error_code renamed;
-  fs::rename(part, target, renamed);
-  if (renamed) {
-    fs::remove(part, ignored);
-    errno = renamed.value();
-    fail(path, "cannot be written");
-  }
+  if (!fs::exists(target, ignored) || fs::is_regular_file(target, ignored)) part_ = path + ".part";
+  file_.open(part_.empty() ? path : part_, std::ios::binary);
+  out_ = &file_;
+  require(file_.is_open());
+}
+
+Output::~Output() {
+  std::error_code ignored;
+  if (!part_.empty()) std::filesystem::remove(part_, ignored);
+}
+
+void Output::require(bool good) const {
+  if (!good) fail(path_.empty() ? "standard output" : path_, "cannot be written");
+}
+
+void Output::write(const std::string& text) {
+  *out_ << text << std::flush;
+  require(out_->good());
+}
+
+void Output::end() {
+  if (path_.empty()) return;
+  file_.close();
+  require(file_.good());
+  if (part_.empty()) return;
+  std::error_code fault;
+  std::filesystem::rename(part_, path_, fault);
+  errno = fault.value();
+  require(!fault);
+  part_.clear();
+}
+
+void write_output(const std::string& path, const std::string& text) {
+  Output output(path);
+  output.write(text);
+  output.end();
 }
 
 std::string read_input(const std::string& path) {

@@ -1,9 +1,12 @@
 // sinew run MODEL… --solver NAME --input ROWS.csv: rows in, rows out; with --robot: in a loop.
 #include <algorithm>
+#include <functional>
 #include <iostream>
+#include <span>
 
 #include "csv.h"
 #include "evaluator.h"
+#include "interruption.h"
 #include "live.h"
 #include "options.h"
 #include "output.h"
@@ -41,6 +44,32 @@ std::vector<std::size_t> match_columns(const std::vector<std::string>& inputs, c
   return columns;
 }
 
+// Results are written while there are more to come, whole rows at a time.
+int write_rows(const std::vector<std::string>& columns, std::size_t rows,
+               const std::function<void(std::size_t row, double* out)>& evaluate,
+               const std::string& path) {
+  constexpr std::size_t kRowsAtOnce = 256;
+  const Interruptible interruptible;
+  Output output(path);
+  output.write(csv_header(columns));
+  for (std::size_t first = 0; first < rows; first += kRowsAtOnce) {
+    const std::size_t count = std::min(kRowsAtOnce, rows - first);
+    std::vector<double> results(count * columns.size());
+    std::size_t done = 0;
+    for (; done < count && interruption() == 0; ++done)
+      evaluate(first + done, results.data() + done * columns.size());
+    output.write(csv_rows(std::span(results).first(done * columns.size()), columns.size()));
+    if (const int signal = interruption(); signal != 0) {
+      std::cerr << "sinew run: ended by " << signal_name(signal) << " after " << first + done
+                << " of " << rows << " rows"
+                << (path.empty() ? "" : "; nothing is written to " + path) << "\n";
+      return interrupted_exit_code(signal);
+    }
+  }
+  output.end();
+  return kOk;
+}
+
 }  // namespace
 
 int run_run(Arguments arguments) {
@@ -48,7 +77,9 @@ int run_run(Arguments arguments) {
       "Evaluate a query for every row of a CSV file: columns are named like the program's inputs "
       "(position.joint1, …), one row is one evaluation. Or, with --robot, run it in a loop, or the "
       "tasks "
-      "of a host model among the MODELs (docs/runtime.md), each with its own solver and rate.",
+      "of a host model among the MODELs (docs/runtime.md), each with its own solver and rate. "
+      "Ctrl-C and SIGTERM end a run in order, a second one at once; what is cut short exits with "
+      "128 + the signal.",
       "sinew run");
   ModelOptions models_options;
   QueryOptions query;
@@ -90,17 +121,14 @@ int run_run(Arguments arguments) {
 
   const program::Interface& interface = evaluator.interface();
   const auto columns = match_columns(column_names(program, interface.inputs), rows, input);
-  Table results{column_names(program, interface.outputs), {}};
-  results.values.resize(rows.rows() * interface.out_size);
   std::vector<double> in(interface.in_size);
-  for (std::size_t row = 0; row < rows.rows(); ++row) {
+  const auto evaluate = [&](std::size_t row, double* out) {
     for (std::size_t i = 0; i < in.size(); ++i) {
       in[i] = rows.values[row * rows.columns.size() + columns[i]];
     }
-    evaluator.evaluate(in.data(), results.values.data() + row * interface.out_size);
-  }
-  write_output(output, write_csv(results));
-  return kOk;
+    evaluator.evaluate(in.data(), out);
+  };
+  return write_rows(column_names(program, interface.outputs), rows.rows(), evaluate, output);
 }
 
 }  // namespace sinew::cli

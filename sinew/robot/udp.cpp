@@ -96,6 +96,8 @@ void Udp::start() {
   const runtime::Nanoseconds until =
       runtime::now() + runtime::from_seconds(options_.start_timeout_s);
   while (!take_frames()) {
+    if (options_.gives_up && options_.gives_up())
+      fail("the wait for a first measurement at " + options_.local + " was given up", "");
     if (runtime::now() > until)
       fail("no measurement arrived at " + options_.local + " within " +
                std::to_string(options_.start_timeout_s) + " s",

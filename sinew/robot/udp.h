@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct UdpOptions {
       "127.0.0.1:0";           // ADDRESS:PORT where measurements arrive; port 0: any free one
   std::string remote;          // ADDRESS:PORT where commands go
   double start_timeout_s = 5;  // for the first measurement
+  std::function<bool()> gives_up = {};  // asked while it waits for it
 };
 
 class Udp final : public runtime::RobotInterface {

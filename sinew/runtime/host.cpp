@@ -184,8 +184,9 @@ void Host::stop() {
 void Host::wait() {
   if (!thread_.joinable()) return;
   thread_.join();
-  for (const auto& [iri, robot] : bindings_.robots) robot->stop();
+  // The log first: it is whole whatever keeps a robot from ending.
   if (bindings_.recorder) bindings_.recorder->stop();
+  for (const auto& [iri, robot] : bindings_.robots) robot->stop();
   state_.store(faulted_.load() ? State::kFaulted : State::kConfigured, std::memory_order_release);
   reclaim();
 }
