@@ -235,7 +235,7 @@ program::Program program_of(Models& models, const ModelOptions& files, const Que
 }
 
 program::Program LaterProgram::take() && {
-  if (model_) program_ = program::lower(*model_, *terms_, name_);
+  if (model_) program_ = program::lower(std::move(*model_), *terms_, name_);
   model_.reset();
   return std::move(program_);
 }

@@ -1,6 +1,7 @@
 #include "sinew/algorithm/builder.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "sinew/algorithm/check.h"
 
@@ -51,11 +52,15 @@ std::uint32_t Builder::find(std::string_view slot, Id element) const {
 }
 
 std::string Builder::unique_name(std::string_view slot, std::string_view label) {
-  std::string name(slot);
+  std::pmr::string name(&memory_);
+  name.reserve(slot.size() + 1 + label.size());
+  name = slot;
   if (label != kWholeRobot) (name += '.') += label;
   // Elements of different namespaces may share their last segment.
-  const std::uint32_t use = ++name_uses_[name];
-  return use == 1 ? name : name + "-" + std::to_string(use);
+  const auto known = name_uses_.try_emplace(std::move(name), 0).first;
+  const std::uint32_t use = ++known->second;
+  std::string unique(known->first);
+  return use == 1 ? unique : unique + "-" + std::to_string(use);
 }
 
 std::uint32_t Builder::block(const BlockSpec& spec) {
@@ -193,7 +198,7 @@ void Builder::output(std::uint32_t index, std::string_view name) {
 }
 
 void Builder::rename(std::uint32_t block, std::string name) {
-  ++name_uses_[name];
+  ++name_uses_[std::pmr::string(name, &memory_)];
   algorithm_.blocks[block].name = std::move(name);
 }
 

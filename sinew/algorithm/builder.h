@@ -11,7 +11,9 @@
 #pragma once
 
 #include <initializer_list>
+#include <memory_resource>
 #include <span>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -113,9 +115,10 @@ class Builder {
   Names names_;
   BuilderWrites writes_;
   Algorithm algorithm_;
-  std::unordered_map<Key, std::uint32_t, KeyHash> by_slot_;
-  std::unordered_map<graph::Id, std::uint32_t> closures_;
-  std::unordered_map<std::string, std::uint32_t> name_uses_;
+  std::pmr::monotonic_buffer_resource memory_;  // of what only grows
+  std::pmr::unordered_map<Key, std::uint32_t, KeyHash> by_slot_{&memory_};
+  std::pmr::unordered_map<graph::Id, std::uint32_t> closures_{&memory_};
+  std::pmr::unordered_map<std::pmr::string, std::uint32_t> name_uses_{&memory_};
   std::unordered_map<std::string_view, std::vector<graph::Id>> port_terms_;  // by operator
   std::unordered_map<const Operator*, graph::Id> operator_terms_;
   std::vector<graph::Id> parts_;  // of the closure that is being made

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory_resource>
 #include <optional>
 #include <unordered_set>
 
@@ -165,7 +166,8 @@ class BlockNames {
   }
 
  private:
-  std::unordered_set<std::string_view> names_;
+  std::pmr::monotonic_buffer_resource memory_;
+  std::pmr::unordered_set<std::string_view> names_{&memory_};
 };
 
 }  // namespace

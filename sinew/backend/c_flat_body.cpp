@@ -56,6 +56,8 @@ FlatEmitter::FlatEmitter(const Computation& computation, const FlatLayout& layou
 
 FlatBody FlatEmitter::run() {
   const AngleGroups& groups = plan_.groups;
+  constexpr std::size_t kOfALine = 56;  // bytes, about
+  result_.code.reserve(groups.after.size(), kOfALine);
   // Pointers that live while sines are computed would need registers that a call preserves.
   const bool only_inputs =
       std::all_of(groups.groups.begin(), groups.groups.end(),

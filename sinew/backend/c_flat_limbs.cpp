@@ -63,6 +63,10 @@ LimbBody LimbEmitter::run() {
   for (std::size_t k = 0; k < program_.regions.size(); ++k) {
     orders.push_back(limb_order(program_.regions[k], live_[k]));
   }
+  constexpr std::size_t kOfALine = 72;  // bytes, about
+  std::size_t nodes = 0;
+  for (const std::vector<std::uint32_t>& order : orders) nodes += order.size();
+  body_.code.reserve(nodes, kOfALine);
   kept_ = keep_values(limb_steps(program_, nodes_, orders, later_));
   sines_of_inputs();
   if (kept_.any()) declare_kept();

@@ -36,6 +36,11 @@ struct CodeBlock {
   void add(std::string_view line, std::uint32_t closure = program::kNoOrigin) {
     add({line}, closure);
   }
+  // For so many lines to come, which need not be all.
+  void reserve(std::size_t count, std::size_t bytes_of_a_line) {
+    text.reserve(count * bytes_of_a_line);
+    origins.reserve(count);
+  }
   // A line of several pieces.
   void add(std::initializer_list<std::string_view> pieces,
            std::uint32_t closure = program::kNoOrigin);

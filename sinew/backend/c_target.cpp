@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <future>
+#include <memory_resource>
 #include <unordered_set>
 #include <utility>
 
@@ -201,8 +202,10 @@ Fields common_fields(const program::ScalarProgram& scalar, const program::Interf
 std::vector<std::string> variable_identifiers(const program::Program& program) {
   std::vector<std::string> names;
   // Views of the names, which stay where they are.
-  std::unordered_set<std::string_view> taken = {"in", "out",  "state", "n",      "i",
-                                                "k",  "in_k", "out_k", "state_k"};
+  std::pmr::monotonic_buffer_resource memory;
+  std::pmr::unordered_set<std::string_view> taken(&memory);
+  for (const char* name : {"in", "out", "state", "n", "i", "k", "in_k", "out_k", "state_k"})
+    taken.insert(name);
   names.reserve(program.variables.size());
   taken.reserve(taken.size() + program.variables.size());
   for (const program::Variable& v : program.variables) {

@@ -25,7 +25,7 @@ bool eight_are_plain(const char* at) {
 }
 
 void append_escaped(std::string& to, std::string_view text) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
+  constexpr std::string_view kHexadecimal = "0123456789abcdef";
   std::size_t written = 0;  // what needs no escape is appended at once
   for (std::size_t k = 0; k < text.size(); ++k) {
     while (k + sizeof(std::uint64_t) <= text.size() && eight_are_plain(text.data() + k))
@@ -38,8 +38,8 @@ void append_escaped(std::string& to, std::string_view text) {
     written = k + 1;
     if (is_control) {
       to += "\\u00";
-      to += kDigits[static_cast<unsigned char>(c) >> 4U];
-      to += kDigits[static_cast<unsigned char>(c) & 15U];
+      to += kHexadecimal[static_cast<unsigned char>(c) >> 4U];
+      to += kHexadecimal[static_cast<unsigned char>(c) & 15U];
     } else {
       to += '\\';
       to += c;
@@ -86,11 +86,20 @@ JsonText& JsonText::key(std::string_view name) {
 
 JsonText& JsonText::pair(std::uint64_t a, std::uint64_t b) {
   separate();
-  text_ += '[';
-  append_digits(a);
-  text_ += ',';
-  append_digits(b);
-  text_ += ']';
+  std::array<char, 2 * kDigits + 3> text;
+  std::size_t at = text.size();
+  const auto number = [&](std::uint64_t left) {
+    do {
+      text[--at] = static_cast<char>('0' + left % 10);
+      left /= 10;
+    } while (left > 0);
+  };
+  text[--at] = ']';
+  number(b);
+  text[--at] = ',';
+  number(a);
+  text[--at] = '[';
+  text_.append(text.data() + at, text.size() - at);
   return *this;
 }
 

@@ -50,10 +50,12 @@ class JsonText {
   std::string take() { return std::move(text_); }
 
  private:
+  static constexpr std::size_t kDigits = 24;  // more than those of any integer
+
   void separate();
   template <std::integral Integer>
   void append_digits(Integer number) {
-    std::array<char, 24> digits;  // more than those of any integer
+    std::array<char, kDigits> digits;
     text_.append(digits.data(),
                  std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
   }

@@ -1,5 +1,7 @@
 #include "sinew/program/lower.h"
 
+#include <utility>
+
 #include "sinew/algorithm/read.h"
 #include "sinew/program/dead_closures.h"
 
@@ -32,19 +34,19 @@ std::string text(const graph::Terms& terms, graph::Id id) {
   return id ? std::string(terms.text(id)) : std::string();
 }
 
-Variable variable_of(const graph::Terms& terms, const algorithm::Block& block) {
+Variable variable_of(const graph::Terms& terms, algorithm::Block&& block) {
   Variable variable;
-  variable.name = block.name;
+  variable.name = std::move(block.name);
   variable.iri = text(terms, block.id);
   variable.represents = text(terms, block.represents);
   variable.quantity = block.quantity->name;
-  variable.unit = block.unit;
+  variable.unit = std::move(block.unit);
   if (block.size > 1) variable.frame = text(terms, frame_of(block));
   variable.role = role_of(block.role);
   variable.output = block.output;
   variable.held = block.held;
   variable.size = block.size;
-  variable.value = block.value;
+  variable.value = std::move(block.value);
   return variable;
 }
 
@@ -56,15 +58,19 @@ Program lower(const graph::View& view, graph::Id algorithm, std::string_view nam
 }
 
 Program lower(const algorithm::Algorithm& model, const graph::Terms& terms, std::string_view name) {
+  return lower(algorithm::Algorithm(model), terms, name);
+}
+
+Program lower(algorithm::Algorithm&& model, const graph::Terms& terms, std::string_view name) {
   Program program;
   program.name = name;
   program.iri = text(terms, model.id);
   program.variables.reserve(model.blocks.size());
-  for (const algorithm::Block& block : model.blocks)
-    program.variables.push_back(variable_of(terms, block));
+  for (algorithm::Block& block : model.blocks)
+    program.variables.push_back(variable_of(terms, std::move(block)));
   program.closures.reserve(model.schedule.size());
   for (const std::uint32_t scheduled : model.schedule) {
-    const algorithm::Closure& closure = model.closures[scheduled];
+    algorithm::Closure& closure = model.closures[scheduled];
     if (closure.op->external) {
       for (const std::uint32_t taken : closure.arguments)
         if (program.variables[taken].role == Role::kInternal)
@@ -74,7 +80,7 @@ Program lower(const algorithm::Algorithm& model, const graph::Terms& terms, std:
     program.schedule.push_back(static_cast<std::uint32_t>(program.closures.size()));
     program.closures.push_back({std::string(closure.op->name), text(terms, closure.id),
                                 text(terms, closure.step), text(terms, closure.about),
-                                closure.arguments});
+                                std::move(closure.arguments)});
   }
   return without_dead_closures(std::move(program));
 }

@@ -24,5 +24,6 @@ Program lower(const graph::View& view, graph::Id algorithm, std::string_view nam
 
 // The same for an algorithm that has been read and checked.
 Program lower(const algorithm::Algorithm& model, const graph::Terms& terms, std::string_view name);
+Program lower(algorithm::Algorithm&& model, const graph::Terms& terms, std::string_view name);
 
 }  // namespace sinew::program

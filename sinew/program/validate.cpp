@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory_resource>
 #include <numeric>
 #include <span>
 #include <unordered_set>
@@ -75,7 +76,8 @@ class Validator {
   }
 
   void check_names() {
-    std::unordered_set<std::string_view> seen;
+    std::pmr::monotonic_buffer_resource memory;
+    std::pmr::unordered_set<std::string_view> seen(&memory);
     seen.reserve(program_.variables.size());
     for (const Variable& v : program_.variables) {
       if (!seen.insert(v.name).second) {

@@ -120,9 +120,14 @@ bool Robot::leads_to_link(const RobotJoint& joint) const {
              joint.joint;
 }
 
-Robot read_robot(graph::Store& store, const View& view) {
+Robot read_base(graph::Store& store, const View& view) {
   Robot robot;
   read_root(store, view, robot);
+  return robot;
+}
+
+Robot read_robot(graph::Store& store, const View& view) {
+  Robot robot = read_base(store, view);
   std::vector<Row> rows = select(store, view, R"(
     SELECT ?index ?joint ?kind ?joint_frame ?frame ?predecessor ?successor ?parent WHERE {
       ?joint tree:index ?index ; a ?kind ; tree:joint-frame ?joint_frame ;

@@ -52,6 +52,8 @@ struct Robot {
 
 // Reads the normalised tree; Error when there is none, or more than one root.
 Robot read_robot(graph::Store& store, const graph::View& view);
+// Its root only.
+Robot read_base(graph::Store& store, const graph::View& view);
 
 // The joints from the root to a frame, as indices into `joints`, the first from the root first.
 std::vector<std::size_t> path_to(const Robot& robot, const graph::View& view, Id frame);

@@ -201,7 +201,7 @@ Synthesis synthesise(graph::Store& store, const Query& query, const graph::Place
                      AlgorithmGraph graph) {
   graph::Transaction transaction = store.begin();
   const graph::View view = transaction.view();
-  Robot robot = read_robot(store, view);
+  Robot robot = query.floating ? read_base(store, view) : read_robot(store, view);
   check_base(store, view, robot, query);
   std::optional<FloatingBase> floating;
   if (query.floating) {
