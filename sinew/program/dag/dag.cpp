@@ -141,9 +141,30 @@ Ref Dag::input(std::uint32_t index) {
   return intern(node);
 }
 
+std::uint32_t Dag::unscaled(Ref ref) const {
+  const Node& n = node(ref);
+  // Both are asked, of the first node where there is no operand: no branch has to be guessed.
+  const bool is_product = n.op == Op::kMultiply, has_constant = is_constant(n.a);
+  const std::uint32_t scaled = 0U - static_cast<std::uint32_t>(is_product & has_constant);
+  return (n.b.node() & scaled) | (ref.node() & ~scaled);
+}
+
+// Operands by index; the first one positive.
+Ref Dag::new_sum(Ref a, Ref b) {
+  if (a.node() > b.node()) std::swap(a, b);
+  const bool flip = a.negative();
+  return intern(Op::kAdd, a.negated_if(flip), b.negated_if(flip)).negated_if(flip);
+}
+
+Ref Dag::new_product(Ref a, Ref b) { return intern(Op::kMultiply, a, b); }
+
 Ref Dag::add(Ref a, Ref b) {
   // What most additions are: of two nodes that are neither constants nor multiples of the same one.
   if (!is_constant(a) && !is_constant(b) && unscaled(a) != unscaled(b)) return new_sum(a, b);
+  return special_sum(a, b);
+}
+
+Ref Dag::special_sum(Ref a, Ref b) {
   if (is_constant(a) && is_constant(b)) {
     return constant(sum_of_constants(constant_value(a), constant_value(b)));
   }
@@ -179,27 +200,16 @@ Ref Dag::add(Ref a, Ref b) {
   return new_sum(a, b);
 }
 
-std::uint32_t Dag::unscaled(Ref ref) const {
-  const Node& n = node(ref);
-  // Both are asked, of the first node where there is no operand: no branch has to be guessed.
-  const bool is_product = n.op == Op::kMultiply, has_constant = is_constant(n.a);
-  const std::uint32_t scaled = 0U - static_cast<std::uint32_t>(is_product & has_constant);
-  return (n.b.node() & scaled) | (ref.node() & ~scaled);
-}
-
-// Operands by index; the first one positive.
-Ref Dag::new_sum(Ref a, Ref b) {
-  if (a.node() > b.node()) std::swap(a, b);
-  const bool flip = a.negative();
-  return intern(Op::kAdd, a.negated_if(flip), b.negated_if(flip)).negated_if(flip);
-}
-
 Ref Dag::multiply(Ref a, Ref b) {
   if (!is_constant(a) && !is_constant(b)) {
     const bool flip = a.negative() != b.negative();
     if (a.node() > b.node()) std::swap(a, b);
     return new_product(a.magnitude(), b.magnitude()).negated_if(flip);
   }
+  return special_product(a, b);
+}
+
+Ref Dag::special_product(Ref a, Ref b) {
   if (is_constant(a) && is_constant(b)) return constant(constant_value(a) * constant_value(b));
   if (is_constant(b)) std::swap(a, b);
   if (is_constant(a, 0.0)) return a;
@@ -216,8 +226,6 @@ Ref Dag::multiply(Ref a, Ref b) {
   }
   return new_product(a, b).negated_if(flip);  // a constant factor comes first
 }
-
-Ref Dag::new_product(Ref a, Ref b) { return intern(Op::kMultiply, a, b); }
 
 Ref Dag::fma(Ref a, Ref b, Ref c) {
   const bool trivial = is_constant(a, 0.0) || is_constant(b, 0.0) || is_constant(c, 0.0) ||

@@ -117,9 +117,11 @@ class Dag {
   [[gnu::always_inline]] inline Ref find_or_add(std::uint64_t hash, Same same, Make make);
   // The node of which this one is a constant multiple, or itself.
   std::uint32_t unscaled(Ref ref) const;
-  Ref new_sum(Ref a, Ref b);
+  [[gnu::always_inline]] inline Ref new_sum(Ref a, Ref b);
   // Preconditions: the operands are positive and in their order.
-  Ref new_product(Ref a, Ref b);
+  [[gnu::always_inline]] inline Ref new_product(Ref a, Ref b);
+  Ref special_sum(Ref a, Ref b);
+  Ref special_product(Ref a, Ref b);
   void rehash(std::size_t least);
 
   std::vector<Node> nodes_;

@@ -7,26 +7,33 @@ namespace sinew::program {
 
 FactorLists::FactorLists(const Polynomials& system)
     : system_(system),
-      table_(std::bit_ceil(2 * system.terms.size() + 1), 0),
+      of_node_(system.sums.size(), kNone),
+      table_(std::bit_ceil(2 * system.terms.size() + 1), kNone),
       of_term_(system.terms.size(), kNone) {}
 
 void FactorLists::count(const Sum& sum) {
-  const std::size_t mask = table_.size() - 1;
   for (std::uint32_t k = sum.first; k < sum.first + sum.count; ++k) {
     const Term& term = system_.terms[k];
-    std::uint64_t h = term.count;
-    for (const std::uint32_t factor : system_.factors_of(term)) h = mixed(h, factor);
-    std::size_t at = h & mask;
-    while (table_[at] != 0 && !same_factors(system_, lists_[table_[at] - 1].term, term)) {
-      at = (at + 1) & mask;
-    }
-    if (table_[at] == 0) {
+    std::uint32_t& list =
+        term.count == 1 ? of_node_[system_.factors[term.first]] : of_product(term);
+    if (list == kNone) {
+      list = size();
       lists_.push_back({term, 0});
-      table_[at] = static_cast<std::uint32_t>(lists_.size());
     }
-    of_term_[k] = table_[at] - 1;
-    ++lists_[of_term_[k]].sums;
+    of_term_[k] = list;
+    ++lists_[list].sums;
   }
+}
+
+std::uint32_t& FactorLists::of_product(const Term& term) {
+  std::uint64_t h = term.count;
+  for (const std::uint32_t factor : system_.factors_of(term)) h = mixed(h, factor);
+  const std::size_t mask = table_.size() - 1;
+  std::size_t at = h & mask;
+  while (table_[at] != kNone && !same_factors(system_, lists_[table_[at]].term, term)) {
+    at = (at + 1) & mask;
+  }
+  return table_[at];
 }
 
 std::uint32_t FactorLists::add(const Term& term) {

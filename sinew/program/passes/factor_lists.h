@@ -45,9 +45,13 @@ class FactorLists {
     std::uint32_t sums;
   };
 
+  // The number of a list that is no node alone, or the place for it.
+  std::uint32_t& of_product(const Term& term);
+
   const Polynomials& system_;
   std::vector<List> lists_;
-  std::vector<std::uint32_t> table_;  // open addressing: number + 1; 0 is free
+  std::vector<std::uint32_t> of_node_;  // of each node alone
+  std::vector<std::uint32_t> table_;    // of the others, by open addressing; kNone is free
   std::vector<std::uint32_t> of_term_;
 };
 

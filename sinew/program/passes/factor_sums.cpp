@@ -101,6 +101,7 @@ class Factoring {
     taken_out_.assign(system_.terms.begin() + first, system_.terms.end());
     system_.collect_last_terms(first, first);
     const std::uint32_t sum = system_.add_sum(first, old.origin);
+    system_.kinds[i] = SumKind::kOfAdded;
     if (system_.uses[i] > 0) {
       system_.uses[sum] = 1;
       system_.retain(system_.terms_of(sum));

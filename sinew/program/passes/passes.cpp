@@ -91,11 +91,11 @@ Computation optimise(Computation computation, const OptimiseOptions& options) {
   run(kFirst, computation, options);
   Polynomials system(std::move(computation));
   run(kPrepare, system, options);
-  OperationCount before = count_operations(system.graph);
+  std::uint32_t before = system.operations();
   for (int round = 0; round < kMaximumRounds; ++round) {
     run(kSimplify, system, options);
-    const OperationCount after = count_operations(system.graph);
-    if (after.add + after.multiply >= before.add + before.multiply) break;
+    const std::uint32_t after = system.operations();
+    if (after >= before) break;
     before = after;
   }
   run(kFinish, system, options);

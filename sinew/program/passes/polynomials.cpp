@@ -12,7 +12,7 @@ Term Polynomials::term(double coefficient, std::span<const std::uint32_t> of) {
 }
 
 std::uint32_t Polynomials::add_sum(std::uint32_t first, std::uint32_t origin) {
-  is_sum.push_back(1);
+  kinds.push_back(SumKind::kOfAdded);
   sums.push_back({first, static_cast<std::uint32_t>(terms.size()) - first, origin});
   uses.push_back(0);
   nodes.push_back(static_cast<std::uint32_t>(sums.size() - 1));
@@ -59,7 +59,7 @@ void Polynomials::release(std::span<const Term> some) {
 
 void Polynomials::release(std::uint32_t node) {
   if (--uses[node] > 0) return;
-  if (is_sum[node] != 0) return release(terms_of(node));
+  if (kinds[node] != SumKind::kNone) return release(terms_of(node));
   const Node& operation = graph.dag.node(node);
   const Ref operands[] = {operation.a, operation.b, operation.c};
   for (int k = 0; k < arity(operation.op); ++k) release(operands[k].node());

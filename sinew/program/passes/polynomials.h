@@ -37,11 +37,17 @@ enum class Association {
   kFused,    // the same with fused multiply-adds, in a chain where the longest path allows
 };
 
+enum class SumKind : std::uint8_t {
+  kNone,     // the operation that it was
+  kSum,      // of nodes that were there
+  kOfAdded,  // perhaps of sums that passes have added
+};
+
 // Node i is what node i of the graph was, either a sum of terms or the operation that it was; the
 // nodes behind those of the graph are sums that passes have added.
 struct Polynomials {
   Computation graph;
-  std::vector<std::uint8_t> is_sum;  // of each node
+  std::vector<SumKind> kinds;        // of each node
   std::vector<Sum> sums;             // of each node; empty where it is none, or has been taken up
   std::vector<std::uint32_t> nodes;  // those that are not part of another one, in their order
   std::vector<std::uint32_t> long_sums;  // of those the sums that were of several terms when read
@@ -55,6 +61,11 @@ struct Polynomials {
 
   // Every pass begins with it. Does nothing if the graph has been read since it was written.
   void read();
+  // Additions and multiplications of the graph, which is read.
+  std::uint32_t operations() {
+    read();
+    return operations_;
+  }
   // Makes the graph anew. Precondition: it has been read.
   void write(Association association);
 
@@ -83,7 +94,10 @@ struct Polynomials {
   void release(std::uint32_t node);
 
  private:
+  friend class SumReader;
+
   bool is_read_ = false;
+  std::uint32_t operations_ = 0;
 };
 
 inline bool same_factors(const Polynomials& system, const Term& a, const Term& b) {

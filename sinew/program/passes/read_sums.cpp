@@ -6,15 +6,13 @@
 #include "sinew/program/passes/polynomials.h"
 
 namespace sinew::program {
-namespace {
-
 // Uses of a node of a graph: how many, and whether sums and products are among the users.
 constexpr std::uint32_t kBySum = 1U << 31U, kByProduct = 1U << 30U;
 constexpr std::uint32_t kHowMany = kByProduct - 1;
 
-class Reader {
+class SumReader {
  public:
-  explicit Reader(Polynomials& system) : system_(system), dag_(system.graph.dag) {}
+  explicit SumReader(Polynomials& system) : system_(system), dag_(system.graph.dag) {}
 
   void run() {
     const std::uint32_t n = dag_.size();
@@ -23,7 +21,7 @@ class Reader {
     coefficients_ = std::make_unique_for_overwrite<double[]>(n);
     waiting_ = std::make_unique_for_overwrite<Ref[]>(n + 1);
     sums_ = std::make_unique_for_overwrite<Ref[]>(n + 1);
-    system_.is_sum.assign(n, 0);
+    system_.kinds.assign(n, SumKind::kNone);
     system_.sums.assign(n, {});
     // No operand becomes more than one term and one factor.
     system_.terms.resize(2 * std::size_t{operations_});
@@ -34,6 +32,7 @@ class Reader {
     for (std::uint32_t i = 0; i < n; ++i) {
       if (uses_[i] != 0) read(i, dag_.node(i));
     }
+    system_.operations_ += operations_;
     system_.terms.resize(terms_);
     system_.factors.resize(factors_);
     hand_over_uses();
@@ -58,6 +57,7 @@ class Reader {
   Kind kind(Ref ref) const { return kinds_[ref.node()]; }
 
   void count_uses() {
+    system_.operations_ = 0;
     uses_.assign(dag_.size(), 0);
     std::uint32_t* const uses = uses_.data();
     for (const Ref result : system_.graph.results) ++uses[result.node()];
@@ -73,6 +73,7 @@ class Reader {
         ++operations_;
       } else {
         const int operands = arity(node.op);
+        if (node.op == Op::kFma) system_.operations_ += 2;
         if (operands > 0) ++uses[node.a.node()];
         if (operands > 1) ++uses[node.b.node()];
         if (operands > 2) ++uses[node.c.node()];
@@ -125,7 +126,7 @@ class Reader {
   void add_node(std::uint32_t i, std::uint32_t first) {
     const std::uint32_t count = terms_ - first;
     system_.sums[i] = {first, count, dag_.node(i).origin};
-    system_.is_sum[i] = 1;
+    system_.kinds[i] = SumKind::kSum;
     system_.nodes.push_back(i);
     if (count > 1) system_.long_sums.push_back(i);
   }
@@ -314,10 +315,8 @@ class Reader {
   std::vector<std::uint32_t> retained_, released_;  // factors of sums that were collected
 };
 
-}  // namespace
-
 void Polynomials::read() {
-  if (!is_read_) Reader(*this).run();
+  if (!is_read_) SumReader(*this).run();
   is_read_ = true;
 }
 

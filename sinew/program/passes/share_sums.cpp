@@ -46,10 +46,8 @@ class Sharing {
     }
     first_added_ = lists_.size();
     sightings_.assign(std::bit_ceil(std::clamp(2 * pairs, kFewestSightings, kMostSightings)), 0);
-    bool again = false;
-    for (const std::uint32_t i : system.long_sums) again |= sight(i);
-    if (!again) return;
-    for (const std::uint32_t i : system.long_sums) enter(i);
+    if (!sight()) return;
+    for (std::size_t k = 0; k < several_.size(); ++k) enter(several_[k].sum, terms_of(k));
   }
 
   // Returns whether there was one.
@@ -98,18 +96,27 @@ class Sharing {
     return system_.sums[i].count >= 2 && system_.sums[i].count <= kMaximumTerms;
   }
 
-  // The terms of a sum whose lists others have as well.
-  const SmallList<Numbered, 8>& numbered(std::uint32_t i) {
-    numbered_.clear();
+  // Appends the terms of a sum whose lists others have as well.
+  void append_numbered(std::uint32_t i, std::vector<Numbered>& to) const {
     const Sum& sum = system_.sums[i];
     for (std::uint32_t k = sum.first; k < sum.first + sum.count; ++k) {
       const std::uint32_t list = lists_.of_term(k);
       if (!lists_.in_several(list)) continue;
       const double coefficient = system_.terms[k].coefficient;
       const std::uint64_t size = std::bit_cast<std::uint64_t>(std::abs(coefficient));
-      numbered_.push_back({list, coefficient, mixed(list, size)});
+      to.push_back({list, coefficient, mixed(list, size)});
     }
+  }
+  std::span<const Numbered> numbered(std::uint32_t i) {
+    numbered_.clear();
+    if (has_pairs(i)) append_numbered(i, numbered_);
     return numbered_;
+  }
+  // Of a sum of several_.
+  std::span<const Numbered> terms_of(std::size_t k) const {
+    const std::size_t from = several_[k].first;
+    const std::size_t to = k + 1 < several_.size() ? several_[k + 1].first : all_.size();
+    return {all_.data() + from, to - from};
   }
 
   // Most pairs occur once. Counting them by a hash alone shows which those are, and they need not
@@ -122,16 +129,24 @@ class Sharing {
   bool occurs_once(const Numbered& a, const Numbered& b) {
     return a.list < first_added_ && b.list < first_added_ && sightings(a, b) < 2;
   }
-  // Returns whether a pair may have occurred before.
-  bool sight(std::uint32_t i) {
-    if (!has_pairs(i)) return false;
+  // Counts the pairs of all sums. Returns whether one may have occurred twice.
+  bool sight() {
     bool again = false;
-    const auto& terms = numbered(i);
-    for (std::size_t a = 0; a < terms.size(); ++a) {
-      for (std::size_t b = a + 1; b < terms.size(); ++b) {
-        std::uint8_t& count = sightings(terms[a], terms[b]);
-        again |= count > 0;
-        if (count < 2) ++count;
+    for (const std::uint32_t i : system_.long_sums) {
+      if (!has_pairs(i)) continue;
+      const std::size_t first = all_.size();
+      append_numbered(i, all_);
+      if (all_.size() < first + 2) {
+        all_.resize(first);
+        continue;
+      }
+      several_.push_back({i, first});
+      for (std::size_t a = first; a < all_.size(); ++a) {
+        for (std::size_t b = a + 1; b < all_.size(); ++b) {
+          std::uint8_t& count = sightings(all_[a], all_[b]);
+          again |= count > 0;
+          count = count > 0 ? 2 : 1;
+        }
       }
     }
     return again;
@@ -139,9 +154,7 @@ class Sharing {
 
   // Of those that several sums might have in common.
   template <typename Change>
-  void for_each_pair(std::uint32_t i, Change change) {
-    if (!has_pairs(i)) return;
-    const auto& terms = numbered(i);
+  void for_each_pair(std::span<const Numbered> terms, Change change) {
     for (std::size_t a = 0; a < terms.size(); ++a) {
       for (std::size_t b = a + 1; b < terms.size(); ++b) {
         if (!occurs_once(terms[a], terms[b])) change(pair_of(terms[a], terms[b]));
@@ -156,8 +169,9 @@ class Sharing {
     if (entry.second.size() > 1) candidates_.insert({&entry, entry.second.size()});
   }
 
-  void enter(std::uint32_t i) {
-    for_each_pair(i, [&](const Pair& pair) {
+  void enter(std::uint32_t i) { enter(i, numbered(i)); }
+  void enter(std::uint32_t i, std::span<const Numbered> terms) {
+    for_each_pair(terms, [&](const Pair& pair) {
       Sums::value_type& entry = *sums_.try_emplace(pair).first;
       auto& sums = entry.second;
       if (std::find(sums.begin(), sums.end(), i) != sums.end()) return;
@@ -168,7 +182,7 @@ class Sharing {
   }
 
   void leave(std::uint32_t i) {
-    for_each_pair(i, [&](const Pair& pair) {
+    for_each_pair(numbered(i), [&](const Pair& pair) {
       const auto entry = sums_.find(pair);
       if (entry == sums_.end()) return;
       auto& sums = entry->second;
@@ -204,6 +218,7 @@ class Sharing {
       if (shared_list == FactorLists::kNone) shared_list = lists_.add(system_.terms[to]);
       lists_.set(to, shared_list);
       system_.sums[i].count = to + 1 - sum.first;
+      system_.kinds[i] = SumKind::kOfAdded;
       enter(i);
     }
     // The pair itself is one sum now, and stays.
@@ -235,8 +250,15 @@ class Sharing {
   FactorLists lists_;
   std::uint32_t first_added_ = 0;        // lists from here on were made by sharing
   std::vector<std::uint8_t> sightings_;  // of pairs, up to two, by their hashes
-  SmallList<Numbered, 8> numbered_;      // of the sum that is looked at
-  Sums sums_;                            // that contain each pair
+  // The terms of each sum that has several such, as they were before anything was shared.
+  struct Several {
+    std::uint32_t sum;
+    std::size_t first;  // in all_
+  };
+  std::vector<Numbered> all_;
+  std::vector<Several> several_;
+  std::vector<Numbered> numbered_;  // the same of the sum that is looked at
+  Sums sums_;                       // that contain each pair
   std::set<Candidate, Before, Pooled<Candidate>> candidates_{Before{&lists_}};
 };
 

@@ -16,7 +16,6 @@ class Writer {
   Writer(const Polynomials& system, Association association)
       : system_(system),
         association_(association),
-        has_added_(system.sums.size() > system.graph.dag.size()),
         associate_(result_.dag, association),
         copy_(system.sums.size(), kNotYet) {
     result_.inputs = system.graph.inputs;
@@ -51,14 +50,14 @@ class Writer {
 
   Ref copy(std::uint32_t i) {
     if (copy_[i] == kNotYet) {
-      copy_[i] = system_.is_sum[i] != 0 ? copy_of_sum(i) : copy_of_operation(i);
+      copy_[i] = system_.kinds[i] != SumKind::kNone ? copy_of_sum(i) : copy_of_operation(i);
     }
     return copy_[i];
   }
 
   Ref copy_of_sum(std::uint32_t i) {
     const std::span<const Term> terms = system_.terms_of(i);
-    if (has_added_) {
+    if (system_.kinds[i] == SumKind::kOfAdded) {
       for (const Term& term : terms) {
         for (const std::uint32_t factor : system_.factors_of(term)) copy(factor);
       }
@@ -89,9 +88,14 @@ class Writer {
     Dag& dag = result_.dag;
     const std::uint32_t* factor = system_.factors.data() + term.first;
     const std::uint32_t* const last = factor + term.count;
-    const bool scaled = factor == last || (term.coefficient != 1.0 && term.coefficient != -1.0);
-    Ref product = scaled ? dag.constant(term.coefficient)
-                         : copy_[*factor++].negated_if(term.coefficient < 0.0);
+    const bool scaled = std::abs(term.coefficient) != 1.0;
+    Ref product;
+    if (!scaled & (term.count > 0)) {
+      product = {copy_[*factor].bits ^ std::uint32_t{std::signbit(term.coefficient)}};
+      if (++factor == last) return product;
+    } else {
+      product = dag.constant(term.coefficient);
+    }
     for (; factor != last; ++factor) product = dag.multiply(product, copy_[*factor]);
     return product;
   }
@@ -109,7 +113,6 @@ class Writer {
 
   const Polynomials& system_;
   Association association_;
-  bool has_added_;  // sums that no node of the graph was: they may have to be written first
   Computation result_;
   Associator associate_;
   std::vector<double> deadline_;
