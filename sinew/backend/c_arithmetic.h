@@ -7,14 +7,21 @@
 
 namespace sinew::backend {
 
+inline bool is_arithmetic(program::Op op) {
+  return op == program::Op::kAdd || op == program::Op::kMultiply || op == program::Op::kFma ||
+         op == program::Op::kDivide;
+}
+
 // Appends the sum, product, both at once, or quotient; `value` gives the text that a node stands
-// for, and may write statements before this one: those of the last operand first.
-template <typename Value>
-void append_arithmetic(std::string& text, const program::Node& node, Value value) {
+// for, and may write statements before this one: those of the last operand first. When they are
+// there, `begin` writes what stands in front of the expression.
+template <typename Value, typename Begin>
+void append_arithmetic(std::string& text, const program::Node& node, Value value, Begin begin) {
   const bool fused = node.op == program::Op::kFma;
   const std::string* const c = fused ? &value(node.c.node()) : nullptr;
   const std::string& b = value(node.b.node());
   const std::string& a = value(node.a.node());
+  begin();
   const auto plus = [&](program::Ref term, const std::string& name) {
     text += term.negative() ? " - " : " + ";
     text += name;

@@ -44,6 +44,7 @@ FlatEmitter::FlatEmitter(const Computation& computation, const FlatLayout& layou
       scalar_(options.scalar == Scalar::kFloat ? "float" : "double"),
       suffix_(options.scalar == Scalar::kFloat ? "f" : ""),
       type_(block_form_ ? options.name + "_lanes" : scalar_),
+      constant_("  const " + type_ + " "),
       names_(dag_.size()),
       memory_of_(dag_.size(), kNoSlot),
       stages_(options.form == FlatForm::kSample &&
@@ -176,6 +177,13 @@ void FlatEmitter::emit(std::uint32_t i) {
   const Node& node = dag_.node(i);
   if (node.op == Op::kSin || node.op == Op::kCos) return;  // the group has made it
   begin_step();
+  if (is_arithmetic(node.op) && !rounds_product(i)) {
+    declare_arithmetic(i, node);
+    wait_in_memory(i);
+    results_of(i);
+    end_step();
+    return;
+  }
   express(node);
   names_[i] = given_.temporary();
   if (block_form_ && (node.op == Op::kSqrt || node.op == Op::kSelect)) {
@@ -191,6 +199,21 @@ void FlatEmitter::emit(std::uint32_t i) {
   end_step();
 }
 
+// The same as express() and declare(), at once where it belongs.
+void FlatEmitter::declare_arithmetic(std::uint32_t i, const Node& node) {
+  std::string& text = block_->text;
+  append_arithmetic(
+      text, node, [this](std::uint32_t operand) -> const std::string& { return value(operand); },
+      [&] {
+        names_[i] = given_.temporary();
+        text += constant_;
+        text += names_[i];
+        text += " = ";
+      });
+  text += ';';
+  block_->end_line(node.origin);
+}
+
 // Writes `expression_`.
 void FlatEmitter::express(const Node& n) {
   expression_.clear();
@@ -202,9 +225,9 @@ void FlatEmitter::express(const Node& n) {
                       y = value(n.c);
     expression_ = fmt::format("{} < {} ? {} : {}", a, b, x, y);
   } else {
-    append_arithmetic(expression_, n, [this](std::uint32_t operand) -> const std::string& {
-      return value(operand);
-    });
+    append_arithmetic(
+        expression_, n,
+        [this](std::uint32_t operand) -> const std::string& { return value(operand); }, [] {});
   }
 }
 

@@ -46,6 +46,7 @@ class FlatEmitter {
   std::string value(Ref ref) { return (ref.negative() ? "-" : "") + value(ref.node()); }
   void read_input(std::uint32_t i, const Node& node);
   void emit(std::uint32_t i);
+  void declare_arithmetic(std::uint32_t i, const Node& node);
   void express(const Node& n);
   void lane_by_lane(std::uint32_t i, const Node& node);
 
@@ -91,6 +92,7 @@ class FlatEmitter {
   bool block_form_;
   std::string scalar_, suffix_;  // "float", "f" behind the names of functions
   std::string type_;             // of a value
+  std::string constant_;         // what its declaration begins with
   std::vector<std::string> arrays_;
   std::vector<std::string> touched_;  // arrays, and n, that the code names
   std::vector<std::string> names_;    // of nodes; empty: not emitted yet

@@ -273,6 +273,24 @@ void LimbEmitter::compute(std::uint32_t i, const Node& node) {
     sine_of(node.a.node());
     return;
   }
+  if (is_arithmetic(node.op)) {
+    std::string& text = body_.code.text;
+    append_arithmetic(
+        text, node, [this](std::uint32_t operand) -> const std::string& { return value(operand); },
+        [&] {
+          std::string& name = names_[at_][i];
+          name = given_.temporary();
+          text += "  const ";
+          text += type();
+          text += ' ';
+          text += name;
+          text += " = ";
+        });
+    text += ';';
+    body_.code.end_line(node.origin);
+    wait_in_memory(i);
+    return;
+  }
   const std::string expression = express(node);  // which may compute others
   std::string& name = names_[at_][i];
   name = given_.temporary();
@@ -296,22 +314,16 @@ std::string LimbEmitter::lane_by_lane(const std::vector<Ref>& operands, Formula 
   });
 }
 
+// A square root or a choice.
 std::string LimbEmitter::express(const Node& n) {
   if (n.op == Op::kSqrt)
     return lane_by_lane({n.a}, [&](const std::vector<std::string>& x) {
       return fmt::format("sqrt{}({})", suffix_, x[0]);
     });
-  if (n.op == Op::kSelect) {
-    const Node& condition = dag().node(n.a);
-    return lane_by_lane({condition.a, condition.b, n.b, n.c},
-                        [](const std::vector<std::string>& x) {
-                          return fmt::format("{} < {} ? {} : {}", x[0], x[1], x[2], x[3]);
-                        });
-  }
-  std::string text;
-  append_arithmetic(text, n,
-                    [this](std::uint32_t operand) -> const std::string& { return value(operand); });
-  return text;
+  const Node& condition = dag().node(n.a);
+  return lane_by_lane({condition.a, condition.b, n.b, n.c}, [](const std::vector<std::string>& x) {
+    return fmt::format("{} < {} ? {} : {}", x[0], x[1], x[2], x[3]);
+  });
 }
 
 LimbBody limb_body(const LimbProgram& program, const FlatLayout& layout,

@@ -41,6 +41,12 @@ struct CodeBlock {
     text.reserve(count * bytes_of_a_line);
     origins.reserve(count);
   }
+  // Ends a line that was appended to the text.
+  void end_line(std::uint32_t closure) {
+    text += '\n';
+    ++lines;
+    if (closure != program::kNoOrigin) origins.push_back({lines, closure});
+  }
   // A line of several pieces.
   void add(std::initializer_list<std::string_view> pieces,
            std::uint32_t closure = program::kNoOrigin);

@@ -84,25 +84,6 @@ JsonText& JsonText::key(std::string_view name) {
   return *this;
 }
 
-JsonText& JsonText::pair(std::uint64_t a, std::uint64_t b) {
-  separate();
-  std::array<char, 2 * kDigits + 3> text;
-  std::size_t at = text.size();
-  const auto number = [&](std::uint64_t left) {
-    do {
-      text[--at] = static_cast<char>('0' + left % 10);
-      left /= 10;
-    } while (left > 0);
-  };
-  text[--at] = ']';
-  number(b);
-  text[--at] = ',';
-  number(a);
-  text[--at] = '[';
-  text_.append(text.data() + at, text.size() - at);
-  return *this;
-}
-
 JsonText& JsonText::value(std::string_view text) {
   separate();
   text_ += '"';

@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,8 +32,27 @@ class JsonText {
     append_digits(number);
     return *this;
   }
-  // [a,b]
-  JsonText& pair(std::uint64_t a, std::uint64_t b);
+  // [[a(e),b(e)],…] for each e of the range: integers, of which there may be very many.
+  template <typename Range, typename A, typename B>
+  JsonText& pairs(const Range& range, A a, B b) {
+    begin_array();
+    std::array<char, 4096> text;
+    char* at = text.data();
+    for (const auto& each : range) {
+      if (at + 2 * kDigits + 4 > text.data() + text.size()) {
+        text_.append(text.data(), at);
+        at = text.data();
+      }
+      if (&each != &*std::begin(range)) *at++ = ',';
+      *at++ = '[';
+      at = std::to_chars(at, at + kDigits, a(each)).ptr;
+      *at++ = ',';
+      at = std::to_chars(at, at + kDigits, b(each)).ptr;
+      *at++ = ']';
+    }
+    text_.append(text.data(), at);
+    return end_array();
+  }
   template <typename Value>
   JsonText& value(const std::vector<Value>& values) {
     begin_array();

@@ -98,9 +98,9 @@ std::string sidecar(const program::ScalarProgram& scalar, const program::Interfa
     json.begin_object().member("operation", c.operation).member("iri", c.iri);
     json.member("step", c.step).member("about", c.about).end_object();
   }
-  json.end_array().key("lines").begin_array();
-  for (const LineOrigin& origin : origins) json.pair(origin.line, origin.closure);
-  json.end_array();
+  json.end_array().key("lines").pairs(
+      origins, [](const LineOrigin& origin) { return origin.line; },
+      [](const LineOrigin& origin) { return origin.closure; });
   if (counts.with_limbs) write_operations(json, "operations-with-limbs", *counts.with_limbs);
   if (!options.partial.empty()) {
     json.member("held-size", scalar.update.results.size());
