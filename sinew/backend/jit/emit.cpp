@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "sinew/backend/jit/block_emitter.h"
 #include "sinew/backend/jit/computation_emitter.h"
 #include "sinew/backend/jit/ir.h"
 #include "sinew/backend/jit/sample_emitter.h"
@@ -142,13 +143,21 @@ LLVMModuleRef emit_samples(LLVMContextRef context, const CodeSource& source,
   return module.module();
 }
 
-LLVMModuleRef emit_block(LLVMContextRef context, const CodeSource& source,
-                         const EmitOptions& options) {
+BlockModule emit_block(LLVMContextRef context, const CodeSource& source, const EmitOptions& options,
+                       bool always) {
   constexpr unsigned kBlockBytes = 64;
   const Module module(context, source, options);
-  write_block(source.computation, module.block_function(kBlockName),
-              LLVMVectorType(module.number(), kBlockBytes / bytes_of(module.number())));
-  return module.module();
+  const Place place = module.block_function(kBlockName);
+  const LLVMTypeRef type = LLVMVectorType(module.number(), kBlockBytes / bytes_of(module.number()));
+  if (options.broadcasts) {
+    PlannedBlock block(source.computation, place, type, options.registers);
+    if (always || !block.is_short()) {
+      block.emit();
+      return {module.module(), true};
+    }
+  }
+  write_block(source.computation, place, type);
+  return {module.module(), false};
 }
 
 }  // namespace sinew::backend

@@ -12,7 +12,7 @@ constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
 
 bool is_vector(LLVMTypeRef type) { return LLVMGetTypeKind(type) == LLVMVectorTypeKind; }
 
-LLVMValueRef in_every_lane(LLVMValueRef value, LLVMTypeRef type) {
+LLVMValueRef constant_in_every_lane(LLVMValueRef value, LLVMTypeRef type) {
   if (!is_vector(type)) return value;
   std::vector<LLVMValueRef> values(LLVMGetVectorSize(type), value);
   return LLVMConstVector(values.data(), static_cast<unsigned>(values.size()));
@@ -43,20 +43,23 @@ Ir::Ir(LLVMBuilderRef builder, LLVMTypeRef type, bool fuse, LoadConstant constan
   integer_type_ = is_vector(type) ? LLVMVectorType(integer64, lanes_) : integer64;
 }
 
-LLVMValueRef Ir::load_in_every_lane(std::uint64_t bits, LLVMTypeRef lane) const {
-  const LLVMValueRef value = constant_(bits, lane);
-  if (lanes_ == 1) return value;
+LLVMValueRef Ir::in_every_lane(LLVMValueRef lane) const {
+  if (lanes_ == 1) return lane;
   const LLVMTypeRef index = LLVMInt32TypeInContext(context_);
-  const LLVMValueRef undefined = LLVMGetUndef(LLVMVectorType(lane, lanes_));
+  const LLVMValueRef undefined = LLVMGetUndef(LLVMVectorType(LLVMTypeOf(lane), lanes_));
   const LLVMValueRef first =
-      LLVMBuildInsertElement(builder_, undefined, value, LLVMConstInt(index, 0, false), "");
+      LLVMBuildInsertElement(builder_, undefined, lane, LLVMConstInt(index, 0, false), "");
   return LLVMBuildShuffleVector(builder_, first, undefined,
                                 LLVMConstNull(LLVMVectorType(index, lanes_)), "");
 }
 
+LLVMValueRef Ir::load_in_every_lane(std::uint64_t bits, LLVMTypeRef lane) const {
+  return in_every_lane(constant_(bits, lane));
+}
+
 LLVMValueRef Ir::number(double value) const {
   if (constant_) return load_in_every_lane(std::bit_cast<std::uint64_t>(value), element_type_);
-  return in_every_lane(LLVMConstReal(element_type_, value), type_);
+  return constant_in_every_lane(LLVMConstReal(element_type_, value), type_);
 }
 
 LLVMValueRef Ir::to_double(LLVMValueRef a) const {
@@ -72,7 +75,8 @@ LLVMValueRef Ir::from_double(LLVMValueRef a) const {
 
 LLVMValueRef Ir::integer(std::uint64_t value) const {
   if (constant_) return load_in_every_lane(value, LLVMInt64TypeInContext(context_));
-  return in_every_lane(LLVMConstInt(LLVMInt64TypeInContext(context_), value, false), type_);
+  return constant_in_every_lane(LLVMConstInt(LLVMInt64TypeInContext(context_), value, false),
+                                type_);
 }
 
 LLVMValueRef Ir::add(LLVMValueRef a, LLVMValueRef b) const {
@@ -137,17 +141,20 @@ LLVMValueRef Ir::bit_is_set(LLVMValueRef bits, unsigned bit) const {
 }
 LLVMValueRef Ir::shift_left(LLVMValueRef bits, unsigned places) const {
   const LLVMTypeRef type = LLVMInt64TypeInContext(context_);
-  return LLVMBuildShl(builder_, bits, in_every_lane(LLVMConstInt(type, places, false), type_), "");
+  return LLVMBuildShl(builder_, bits,
+                      constant_in_every_lane(LLVMConstInt(type, places, false), type_), "");
 }
 LLVMValueRef Ir::flip_sign(LLVMValueRef a, LLVMValueRef bits) const {
   const LLVMValueRef sign = LLVMBuildAnd(builder_, bits, integer(kSign), "");
   return LLVMBuildBitCast(builder_, LLVMBuildXor(builder_, to_integer_bits(a), sign, ""), type_,
                           "");
 }
-LLVMValueRef Ir::magnitude_at_most(LLVMValueRef a, double limit) const {
+LLVMValueRef Ir::magnitude(LLVMValueRef a) const {
   const LLVMValueRef bits = LLVMBuildAnd(builder_, to_integer_bits(a), integer(~kSign), "");
-  const LLVMValueRef magnitude = LLVMBuildBitCast(builder_, bits, type_, "");
-  return LLVMBuildFCmp(builder_, LLVMRealOLE, magnitude, number(limit), "");
+  return LLVMBuildBitCast(builder_, bits, type_, "");
+}
+LLVMValueRef Ir::magnitude_at_most(LLVMValueRef a, double limit) const {
+  return LLVMBuildFCmp(builder_, LLVMRealOLE, magnitude(a), number(limit), "");
 }
 
 LLVMValueRef Ir::all(LLVMValueRef mask) const {

@@ -29,6 +29,7 @@ class Ir {
   bool fuses() const { return fuse_; }
 
   LLVMValueRef number(double value) const;  // in every lane; rounded where the type is float
+  LLVMValueRef in_every_lane(LLVMValueRef lane) const;
   // The same lanes as doubles, and back to the type; nothing where they are doubles.
   LLVMValueRef to_double(LLVMValueRef a) const;
   LLVMValueRef from_double(LLVMValueRef a) const;
@@ -49,6 +50,7 @@ class Ir {
   LLVMValueRef shift_left(LLVMValueRef bits, unsigned places) const;  // towards the sign
   // Where the highest of the bits is set.
   LLVMValueRef flip_sign(LLVMValueRef a, LLVMValueRef bits) const;
+  LLVMValueRef magnitude(LLVMValueRef a) const;
   LLVMValueRef magnitude_at_most(LLVMValueRef a, double limit) const;  // a mask; false for NaN
   LLVMValueRef all(LLVMValueRef mask) const;                           // one bit
 

@@ -67,7 +67,7 @@ Host host() {
   return result;
 }
 
-// Code for one sample, whose registers are planned here; or for a block of them.
+// Code for one sample, or for a block of them.
 enum class CodePart { kSamples, kBlock };
 
 class Machine {
@@ -95,19 +95,24 @@ class Machine {
   LLVMTargetMachineRef machine_ = nullptr;
 };
 
-LLVMModuleRef emit_part(LLVMContextRef context, CodePart part, const CodeSource& source,
-                        const EmitOptions& options) {
-  return part == CodePart::kSamples ? emit_samples(context, source, options)
-                                    : emit_block(context, source, options);
-}
+struct WrittenPart {
+  LLVMModuleRef module = nullptr;
+  CodeOrder::Who who = CodeOrder::kPlanned;
+};
 
-// Where registers are few, the plan does not fit as it is, for a step needs more than what it reads
-// and computes: there the greedy allocator makes calls up to 9 % shorter.
-CodeOrder::Who who_orders(CodePart part, const Host& host, JitLevel level) {
+// Where registers are few, the plan of a sample's function does not fit as it is, for a step needs
+// more than what it reads and computes: there the greedy allocator makes calls up to 9 % shorter.
+WrittenPart write_part(LLVMContextRef context, CodePart part, const CodeSource& source,
+                       const EmitOptions& options, JitLevel level) {
   const bool is_fast = level == JitLevel::kFast;
-  if (part == CodePart::kBlock) return is_fast ? CodeOrder::kAsWritten : CodeOrder::kByGenerator;
-  return host.emit.registers <= kRegistersOf16 && !is_fast ? CodeOrder::kRegistersByGenerator
-                                                           : CodeOrder::kPlanned;
+  if (part == CodePart::kSamples) {
+    return {emit_samples(context, source, options), options.registers <= kRegistersOf16 && !is_fast
+                                                        ? CodeOrder::kRegistersByGenerator
+                                                        : CodeOrder::kPlanned};
+  }
+  const BlockModule block = emit_block(context, source, options, is_fast);
+  if (block.is_planned) return {block.module, CodeOrder::kPlanned};
+  return {block.module, is_fast ? CodeOrder::kAsWritten : CodeOrder::kByGenerator};
 }
 
 // The object file of a module.
@@ -115,7 +120,7 @@ std::string compile_object(CodePart part, const CodeSource& source, const Host& 
                            JitLevel level) {
   const Machine machine(host, level);
   const LLVMContextRef context = LLVMContextCreate();
-  const LLVMModuleRef module = emit_part(context, part, source, host.emit);
+  const auto [module, who] = write_part(context, part, source, host.emit, level);
   LLVMSetTarget(module, host.triple.c_str());
   const LLVMTargetDataRef layout = LLVMCreateTargetDataLayout(machine.get());
   LLVMSetModuleDataLayout(module, layout);
@@ -130,7 +135,7 @@ std::string compile_object(CodePart part, const CodeSource& source, const Host& 
   message = nullptr;
 #endif
   LLVMMemoryBufferRef buffer = nullptr;
-  const CodeOrder order(who_orders(part, host, level));
+  const CodeOrder order(who);
   if (fault.empty() && LLVMTargetMachineEmitToMemoryBuffer(machine.get(), module, LLVMObjectFile,
                                                            &message, &buffer)) {
     fault = message;

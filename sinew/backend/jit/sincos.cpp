@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "sinew/backend/jit/ir.h"
+#include "sinew/backend/jit/constant_table.h"
+#include "sinew/backend/jit/ir_in_step.h"
 
 namespace sinew::backend {
 namespace {
 
-constexpr double kLargestAngle = 1e5;
 // Vectors of angles from which on a loop computes their sines.
 constexpr std::size_t kFewestForLoop = 3;
 
@@ -29,64 +29,82 @@ constexpr double kCosine[] = {4.16666666666666019037e-02, -1.3888888888874109574
                               2.48015872894767294178e-05, -2.75573143513906633035e-07,
                               2.08757232129817482790e-09, -1.13596475577881948265e-11};
 
-LLVMValueRef horner(const Ir& ir, LLVMValueRef z, const double (&coefficients)[6]) {
-  LLVMValueRef sum = ir.number(coefficients[5]);
+template <typename Arithmetic, typename Value>
+Value horner(const Arithmetic& ir, const Value& z, const double (&coefficients)[6]) {
+  Value sum = ir.number(coefficients[5]);
   for (int i = 4; i >= 0; --i) sum = ir.multiply_add(sum, z, ir.number(coefficients[i]));
   return sum;
 }
 
 // cos = 1 - z/2 + z^2 c(z)
-LLVMValueRef cosine_of(const Ir& ir, LLVMValueRef z, LLVMValueRef polynomial) {
-  const LLVMValueRef one = ir.number(1.0);
+template <typename Arithmetic, typename Value>
+Value cosine_of(const Arithmetic& ir, const Value& z, const Value& polynomial) {
+  const Value one = ir.number(1.0);
   if (ir.fuses()) {
     return ir.multiply_add(z, ir.multiply_add(z, polynomial, ir.number(-0.5)), one);
   }
   // 1 - z/2 is rounded once, and its error put back.
-  const LLVMValueRef half = ir.multiply(z, ir.number(0.5));
-  const LLVMValueRef near = ir.subtract(one, half);
-  const LLVMValueRef error = ir.subtract(ir.subtract(one, near), half);
+  const Value half = ir.multiply(z, ir.number(0.5));
+  const Value near = ir.subtract(one, half);
+  const Value error = ir.subtract(ir.subtract(one, near), half);
   return ir.add(near, ir.add(error, ir.multiply(ir.multiply(z, z), polynomial)));
 }
 
+template <typename Value>
 struct Pair {
-  LLVMValueRef sine, cosine;
+  Value sine, cosine;
 };
 
 // Within 0.9 units in the last place; 0.95 where the machine cannot fuse.
-Pair fast_sincos(const Ir& ir, LLVMValueRef x) {
-  const LLVMValueRef shifted = ir.multiply_add(x, ir.number(kTwoOverPi), ir.number(kRounder));
-  const LLVMValueRef quotient = ir.subtract(shifted, ir.number(kRounder));
-  const LLVMValueRef bits = ir.to_integer_bits(shifted);
+template <typename Arithmetic, typename Value>
+Pair<Value> fast_pair(const Arithmetic& ir, const Value& x) {
+  const Value shifted = ir.multiply_add(x, ir.number(kTwoOverPi), ir.number(kRounder));
+  const Value quotient = ir.subtract(shifted, ir.number(kRounder));
+  const Value bits = ir.to_integer_bits(shifted);
 
   // r + tail = x - quotient * pi/2; the first two products are exact, and so is what they leave,
   // but for r, whose rounding goes into the tail.
-  const LLVMValueRef back = ir.negate(quotient);
-  const LLVMValueRef r1 = ir.multiply_add(back, ir.number(kHalfPi1), x);
-  const LLVMValueRef r = ir.multiply_add(back, ir.number(kHalfPi2), r1);
-  const LLVMValueRef lost = ir.multiply_add(back, ir.number(kHalfPi2), ir.subtract(r1, r));
-  const LLVMValueRef tail = ir.multiply_add(back, ir.number(kHalfPi3), lost);
+  const Value back = ir.negate(quotient);
+  const Value r1 = ir.multiply_add(back, ir.number(kHalfPi1), x);
+  const Value r = ir.multiply_add(back, ir.number(kHalfPi2), r1);
+  const Value lost = ir.multiply_add(back, ir.number(kHalfPi2), ir.subtract(r1, r));
+  const Value tail = ir.multiply_add(back, ir.number(kHalfPi3), lost);
 
-  const LLVMValueRef square = ir.multiply(r, r);
+  const Value square = ir.multiply(r, r);
   // (r + tail)^2, but for the square of the tail
-  const LLVMValueRef z = ir.multiply_add(r, r, ir.multiply(ir.add(r, r), tail));
-  const LLVMValueRef sine =
+  const Value z = ir.multiply_add(r, r, ir.multiply(ir.add(r, r), tail));
+  const Value sine =
       ir.add(r, ir.multiply_add(ir.multiply(square, r), horner(ir, square, kSine), tail));
-  const LLVMValueRef cosine = cosine_of(ir, z, horner(ir, square, kCosine));
+  const Value cosine = cosine_of(ir, z, horner(ir, square, kCosine));
 
   // Quadrant q: (sin, cos) = (s, c), (c, -s), (-s, -c), (-c, s).
-  const LLVMValueRef odd = ir.bit_is_set(bits, 0);
-  const LLVMValueRef second = ir.shift_left(bits, 62);  // of the low bits is now the sign
-  const LLVMValueRef of_next = ir.add_integer(second, std::uint64_t{1} << 62);
+  const Value odd = ir.bit_is_set(bits, 0);
+  const Value second = ir.shift_left(bits, 62);  // of the low bits is now the sign
+  const Value of_next = ir.add_integer(second, std::uint64_t{1} << 62);
   return {ir.flip_sign(ir.select(odd, cosine, sine), second),
           ir.flip_sign(ir.select(odd, sine, cosine), of_next)};
 }
+
+}  // namespace
+
+SincosPair fast_sincos(const Ir& ir, LLVMValueRef angle) {
+  const Pair<LLVMValueRef> pair = fast_pair(ir, angle);
+  return {pair.sine, pair.cosine};
+}
+
+SincosValues fast_sincos_in_step(const Ir& ir, const std::vector<LLVMValueRef>& angles) {
+  const Pair<IrInStep::Values> pairs = fast_pair(IrInStep(ir, angles.size()), angles);
+  return {pairs.sine, pairs.cosine};
+}
+
+namespace {
 
 // Those of all angles; a bit that says whether the method covers all of them.
 LLVMValueRef fast_sincos(const Ir& ir, LLVMBuilderRef builder,
                          const std::vector<LLVMValueRef>& angles, SincosValues& values) {
   LLVMValueRef covered = nullptr;
   for (const LLVMValueRef x : angles) {
-    const Pair pair = fast_sincos(ir, x);
+    const SincosPair pair = fast_sincos(ir, x);
     values.sine.push_back(pair.sine);
     values.cosine.push_back(pair.cosine);
     const LLVMValueRef in_range = ir.magnitude_at_most(x, kLargestAngle);
@@ -165,41 +183,6 @@ SincosValues load_values(const Ir& ir, LLVMValueRef array, const SincosValues& v
   return loaded;
 }
 
-// A table of constants behind a pointer of its own: an instruction takes one number from there for
-// all lanes, with an address of one byte.
-class ConstantTable {
- public:
-  explicit ConstantTable(const Place& place) : place_(place) {
-    const LLVMModuleRef module = LLVMGetGlobalParent(place.function);
-    number_ = LLVMInt64TypeInContext(LLVMGetModuleContext(module));
-    begin_ = LLVMAddGlobal(module, number_, "sine_constants_begin");
-    pointer_ = hidden(place.builder, begin_);
-  }
-  // A place for each use, so that LLVM does not hold it in a register for the next one.
-  LLVMValueRef load(std::uint64_t bits, LLVMTypeRef type) {
-    LLVMValueRef at = LLVMConstInt(number_, constants_.size(), false);
-    constants_.push_back(LLVMConstInt(number_, bits, false));
-    return LLVMBuildLoad2(place_.builder, type,
-                          LLVMBuildGEP2(place_.builder, number_, pointer_, &at, 1, ""), "");
-  }
-  void end() {
-    const LLVMValueRef list = LLVMConstArray2(number_, constants_.data(), constants_.size());
-    const LLVMValueRef table =
-        LLVMAddGlobal(LLVMGetGlobalParent(place_.function), LLVMTypeOf(list), "sine_constants");
-    LLVMSetInitializer(table, list);
-    LLVMSetGlobalConstant(table, true);
-    LLVMSetLinkage(table, LLVMPrivateLinkage);
-    LLVMReplaceAllUsesWith(begin_, table);
-    LLVMDeleteGlobal(begin_);
-  }
-
- private:
-  const Place& place_;
-  LLVMTypeRef number_;
-  LLVMValueRef begin_, pointer_;  // `begin_` stands for the table until it is known
-  std::vector<LLVMValueRef> constants_;
-};
-
 LLVMValueRef fast_sincos_from_table(const Place& place, const std::vector<LLVMValueRef>& angles,
                                     SincosValues& values) {
   ConstantTable table(place);
@@ -230,7 +213,7 @@ void fast_sincos_in_loop(const Place& place, LLVMValueRef last, std::size_t n, L
               [&](std::uint64_t bits, LLVMTypeRef lane) { return table.load(bits, lane); });
   values.sine.resize(n, nullptr);
   values.cosine.resize(n, nullptr);
-  const Pair pair = fast_sincos(ir, last);
+  const SincosPair pair = fast_sincos(ir, last);
   values.sine.back() = pair.sine;
   values.cosine.back() = pair.cosine;
   store_values(ir, values, array);
@@ -245,7 +228,7 @@ void fast_sincos_in_loop(const Place& place, LLVMValueRef last, std::size_t n, L
     LLVMValueRef index = LLVMBuildAdd(place.builder, at, LLVMConstInt(integer, from, false), "");
     return LLVMBuildInBoundsGEP2(place.builder, type, array, &index, 1, "");
   };
-  const Pair next = fast_sincos(ir, LLVMBuildLoad2(place.builder, type, element(2 * n), ""));
+  const SincosPair next = fast_sincos(ir, LLVMBuildLoad2(place.builder, type, element(2 * n), ""));
   LLVMBuildStore(place.builder, next.sine, element(0));
   LLVMBuildStore(place.builder, next.cosine, element(n));
   LLVMValueRef begin = LLVMConstInt(integer, 0, false);

@@ -12,15 +12,25 @@
 #include <cstddef>
 #include <vector>
 
+#include "sinew/backend/jit/ir.h"
 #include "sinew/backend/jit/place.h"
 
 namespace sinew::backend {
 
-inline constexpr unsigned kSineLanes = 8;  // angles in a vector of doubles
+inline constexpr unsigned kSineLanes = 8;     // angles in a vector of doubles
+inline constexpr double kLargestAngle = 1e5;  // beyond, the fast method does not cover it
+
+// Of one angle or a vector of them, by the fast method.
+struct SincosPair {
+  LLVMValueRef sine, cosine;
+};
+SincosPair fast_sincos(const Ir& ir, LLVMValueRef angle);
 
 struct SincosValues {
   std::vector<LLVMValueRef> sine, cosine;  // as wide as the angles; null: in memory only
 };
+// Of several, operation by operation.
+SincosValues fast_sincos_in_step(const Ir& ir, const std::vector<LLVMValueRef>& angles);
 
 // `angles` are doubles or vectors of doubles, all of the same type. Leaves the builder in the block
 // where the code goes on. `repair` is a declaration of kSincosRepairName in the same module.
