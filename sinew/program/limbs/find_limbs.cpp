@@ -1,11 +1,11 @@
 #include "sinew/program/limbs/find_limbs.h"
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 #include <map>
 #include <numeric>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "sinew/program/kernels.h"
@@ -31,7 +31,9 @@ class Colours {
   explicit Colours(const Program& program)
       : program_(program),
         colour_(program.closures.size(), 0),
-        is_unique_(program.closures.size(), 0) {
+        is_unique_(program.closures.size(), 0),
+        firsts_(std::bit_ceil(2 * program.closures.size() + 1), 0) {
+    facts_.reserve(program.closures.size());
     for (const Closure& closure : program.closures) {
       facts_.push_back({find_kernel(closure.operation), of_text(closure.operation),
                         of_text(closure.step), is_sum(closure)});
@@ -43,7 +45,7 @@ class Colours {
   // By what closures do and how their arguments came about, then also by what becomes of their
   // results: a spine looks like a leg as far as it goes, but it carries arms. Again as long as that
   // tells more of them apart (refinement of colours, after Weisfeiler and Leman, 1968).
-  std::vector<Colour> refined() {
+  const std::vector<Colour>& refined() {
     constexpr int kMaximumRounds = 16;
     forward();
     for (int round = 0; round < kMaximumRounds; ++round) {
@@ -54,6 +56,10 @@ class Colours {
     }
     return colour_;
   }
+
+  // Whether no other closure has the closure's colour.
+  bool is_unique(std::uint32_t closure) const { return is_unique_[closure] != 0; }
+  const Kernel& kernel(std::uint32_t closure) const { return *facts_[closure].kernel; }
 
  private:
   // What does not change from round to round.
@@ -121,16 +127,21 @@ class Colours {
     return closure.operation.starts_with("accumulate-") || closure.operation == "add-energy";
   }
 
+  // By a table with open addressing: a place holds the first closure of a colour, and one more.
   void count() {
-    sorted_.clear();
-    for (const std::uint32_t index : program_.schedule) sorted_.push_back({colour_[index], index});
-    std::sort(sorted_.begin(), sorted_.end());
+    std::fill(firsts_.begin(), firsts_.end(), 0);
+    const std::size_t mask = firsts_.size() - 1;
     colours_ = 0;
-    for (std::size_t from = 0; from < sorted_.size(); ++colours_) {
-      std::size_t to = from + 1;
-      while (to < sorted_.size() && sorted_[to].first == sorted_[from].first) ++to;
-      for (std::size_t k = from; k < to; ++k) is_unique_[sorted_[k].second] = to - from == 1;
-      from = to;
+    for (const std::uint32_t index : program_.schedule) {
+      std::size_t at = colour_[index] & mask;
+      while (firsts_[at] != 0 && colour_[firsts_[at] - 1] != colour_[index]) at = (at + 1) & mask;
+      is_unique_[index] = firsts_[at] == 0 ? 1 : 0;
+      if (firsts_[at] == 0) {
+        firsts_[at] = index + 1;
+        ++colours_;
+      } else {
+        is_unique_[firsts_[at] - 1] = 0;
+      }
     }
   }
 
@@ -139,8 +150,8 @@ class Colours {
   std::vector<Colour> first_;            // of variables that nobody has written
   std::vector<Colour> colour_;           // of closures
   std::vector<std::uint8_t> is_unique_;  // whether no other closure has a closure's colour
-  std::vector<std::pair<Colour, std::uint32_t>> sorted_;  // with the closures
-  std::size_t colours_ = 0;                               // different ones
+  std::vector<std::uint32_t> firsts_;    // with each colour
+  std::size_t colours_ = 0;              // different ones
 };
 
 // Sets of closures, joined one by one.
@@ -161,10 +172,9 @@ class Sets {
 
 Limbs find_limbs(const Program& program) {
   const std::size_t n = program.closures.size();
-  const std::vector<Colour> colour = Colours(program).refined();
-  std::unordered_map<Colour, std::uint32_t> members;
-  for (const std::uint32_t index : program.schedule) ++members[colour[index]];
-  const auto in_trunk = [&](std::uint32_t index) { return members[colour[index]] < 2; };
+  Colours colours(program);
+  const std::vector<Colour>& colour = colours.refined();
+  const auto in_trunk = [&](std::uint32_t index) { return colours.is_unique(index); };
 
   // Whoever writes and whoever reads a variable are of the same limb, unless one is of the trunk.
   Sets sets(n);
@@ -172,7 +182,7 @@ Limbs find_limbs(const Program& program) {
   for (const std::uint32_t index : program.schedule) {
     if (in_trunk(index)) continue;
     const Closure& closure = program.closures[index];
-    const Kernel& kernel = *find_kernel(closure.operation);
+    const Kernel& kernel = colours.kernel(index);
     const std::size_t count = closure.arguments.size();
     for (std::size_t i = 0; i < count; ++i) {
       std::uint32_t& by = writer[closure.arguments[i]];

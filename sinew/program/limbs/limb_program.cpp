@@ -4,7 +4,6 @@
 #include <bit>
 #include <chrono>
 #include <map>
-#include <unordered_map>
 
 #include "sinew/program/interface.h"
 #include "sinew/program/kernels.h"
@@ -39,7 +38,12 @@ struct Unit {
 class Recorder {
  public:
   Recorder(const Program& program, const Limbs& limbs)
-      : program_(program), limbs_(limbs), home_(program.variables.size()) {}
+      : program_(program), limbs_(limbs), home_(program.variables.size()) {
+    kernels_.reserve(program.closures.size());
+    for (const Closure& closure : program.closures) {
+      kernels_.push_back(find_kernel(closure.operation));
+    }
+  }
 
   LimbProgram run() {
     arrange();
@@ -126,7 +130,7 @@ class Recorder {
   void for_arguments(const Unit& unit, Visit visit) const {
     for (std::uint32_t lane = 0; lane < unit.closures.size(); ++lane) {
       const Closure& closure = program_.closures[unit.closures[lane]];
-      const Kernel& kernel = *find_kernel(closure.operation);
+      const Kernel& kernel = *kernels_[unit.closures[lane]];
       for (std::size_t i = 0; i < closure.arguments.size(); ++i) {
         visit(closure.arguments[i], kernel.port(i, closure.arguments.size()).output, lane);
       }
@@ -236,15 +240,13 @@ class Recorder {
     }
     std::vector<std::vector<LimbSource>>& inputs = result_.regions[region].inputs;
     std::uint32_t input = static_cast<std::uint32_t>(inputs.size());
-    const std::uint64_t key = hash(sources);
-    const auto [from, to] = input_index_[region].equal_range(key);
-    for (auto at = from; at != to; ++at) {
-      if (same(inputs[at->second], sources)) input = at->second;
-    }
-    if (input == inputs.size()) {
+    std::uint32_t& known = input_index_[region].find(
+        hash(sources), [&](std::uint32_t other) { return same(inputs[other], sources); });
+    if (known == kTrunk) {
+      known = input;
       inputs.push_back(sources);
-      input_index_[region].emplace(key, input);
     }
+    input = known;
     const Ref ref = dag.input(input);
     return Traced(dag, turn ? -ref : ref);
   }
@@ -252,7 +254,7 @@ class Recorder {
   void record(const Unit& unit) {
     const std::uint32_t region = region_of(unit);
     const Closure& closure = program_.closures[unit.closures[0]];
-    const Kernel& kernel = *find_kernel(closure.operation);
+    const Kernel& kernel = *kernels_[unit.closures[0]];
     const std::size_t count = closure.arguments.size();
     if (values_.size() < count) values_.resize(count);
     sizes_.clear();
@@ -310,13 +312,52 @@ class Recorder {
   bool circular() const { return circular_; }
 
  private:
+  // Numbers by their hashes, with open addressing.
+  class Index {
+   public:
+    // The number of this hash that `is` the one, or the place for it: kTrunk.
+    template <typename Is>
+    std::uint32_t& find(std::uint64_t hash, Is is) {
+      if (2 * (taken_ + 1) > places_.size()) grow();
+      for (std::size_t at = hash & (places_.size() - 1);; at = (at + 1) & (places_.size() - 1)) {
+        Place& place = places_[at];
+        if (place.number == kTrunk) {
+          ++taken_;
+          place.hash = hash;
+          return place.number;
+        }
+        if (place.hash == hash && is(place.number)) return place.number;
+      }
+    }
+
+   private:
+    struct Place {
+      std::uint64_t hash = 0;
+      std::uint32_t number = kTrunk;
+    };
+    void grow() {
+      std::vector<Place> old(2 * places_.size());
+      std::swap(old, places_);
+      for (const Place& place : old) {
+        if (place.number == kTrunk) continue;
+        std::size_t at = place.hash & (places_.size() - 1);
+        while (places_[at].number != kTrunk) at = (at + 1) & (places_.size() - 1);
+        places_[at] = place;
+      }
+    }
+
+    std::vector<Place> places_ = std::vector<Place>(64);
+    std::size_t taken_ = 0;
+  };
+
   const Program& program_;
   const Limbs& limbs_;
+  std::vector<const Kernel*> kernels_;  // of closures
   std::vector<Unit> units_;
   std::vector<Home> home_;  // by variable
   LimbProgram result_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> region_index_;
-  std::vector<std::unordered_multimap<std::uint64_t, std::uint32_t>> input_index_;  // by hash
+  std::vector<Index> input_index_;                        // of each region
   std::vector<std::vector<std::uint32_t>> result_index_;  // by node; kTrunk: no result yet
   bool circular_ = false;
   // Of the unit, or the number, that is being recorded.
