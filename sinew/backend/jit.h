@@ -22,7 +22,7 @@
 namespace sinew::backend {
 
 enum class JitLevel : std::uint8_t {
-  kFast,  // the first call sooner; batches take up to twice as long, single calls do not
+  kFast,  // the first call sooner; batches may take longer, without AVX-512 up to twice as long
   kFull,  // the fastest code
 };
 
