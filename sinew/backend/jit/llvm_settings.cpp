@@ -52,11 +52,17 @@ llvm::ScheduleDAGInstrs* scheduler(llvm::MachineSchedContext* context) {
 void set_up_code_generator() {
   static const bool done = [] {
     // Both look at all pairs of loads and stores of a block, of which ours have a thousand. We join
-    // neighbouring stores ourselves (constant_results.h); and the scheduler gives up telling loads
-    // and stores apart one by one where there are more than a hundred.
+    // neighbouring stores ourselves (constant_results.h, result_pairs.h); and the scheduler gives
+    // up telling loads and stores apart one by one where there are more than a hundred. Loops go
+    // round a few times only, and filling up to where they would be aligned takes some seven bytes
+    // each.
     static llvm::MachineSchedRegistry registered("sinew", "as the thread wants it", scheduler);
-    const char* const options[] = {"sinew", "-misched=sinew", "-combiner-store-merging=false",
-                                   "-dag-maps-huge-region=100", "-dag-maps-reduction-size=50"};
+    const char* const options[] = {"sinew",
+                                   "-misched=sinew",
+                                   "-combiner-store-merging=false",
+                                   "-dag-maps-huge-region=100",
+                                   "-dag-maps-reduction-size=50",
+                                   "-max-bytes-for-alignment=1"};
     LLVMParseCommandLineOptions(static_cast<int>(std::size(options)), options, nullptr);
     llvm::RegisterRegAlloc::setDefault(register_allocator);
     return true;

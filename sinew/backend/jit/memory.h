@@ -43,8 +43,9 @@ class Memory {
   LLVMValueRef early_cosine(std::size_t angle, LLVMTypeRef type) const;
 
   void keep(LLVMValueRef value, std::size_t slot) const;
+  // A number, or neighbours as a vector: the place of the first.
   void write_result(LLVMValueRef value, std::size_t index) const;
-  LLVMValueRef results() const { return out_; }  // where they begin
+  LLVMValueRef results() const { return out_; }  // where they begin; there before `begin`
 
   // After all else: the table of constants.
   void end();

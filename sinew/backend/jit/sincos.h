@@ -40,7 +40,7 @@ SincosValues emit_sincos(LLVMBuilderRef builder, LLVMValueRef function, LLVMValu
 // The same of vectors, all as wide, written to an array: all sines, behind them all cosines. Behind
 // those it has as many numbers again for the angles, should they need repair, which happens in
 // place. Where there are many of them, all but the last vector are computed by a loop, and are in
-// the array only: the copies of the code would be 180 bytes each. Two pointers that are needed
+// the array only: copies of the code take 270 bytes each. Two pointers that are needed
 // afterwards come back from it, so that they need be kept nowhere where it is not called.
 SincosValues emit_sincos_to(const Place& place, const std::vector<LLVMValueRef>& angles,
                             LLVMValueRef array, LLVMValueRef& first, LLVMValueRef& second);
