@@ -6,6 +6,7 @@
 #include "sinew/program/passes/polynomials.h"
 
 namespace sinew::program {
+
 // Uses of a node of a graph: how many, and whether sums and products are among the users.
 constexpr std::uint32_t kBySum = 1U << 31U, kByProduct = 1U << 30U;
 constexpr std::uint32_t kHowMany = kByProduct - 1;
