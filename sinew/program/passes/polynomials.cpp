@@ -59,10 +59,24 @@ void Polynomials::release(std::span<const Term> some) {
 
 void Polynomials::release(std::uint32_t node) {
   if (--uses[node] > 0) return;
-  if (kinds[node] != SumKind::kNone) return release(terms_of(node));
-  const Node& operation = graph.dag.node(node);
-  const Ref operands[] = {operation.a, operation.b, operation.c};
-  for (int k = 0; k < arity(operation.op); ++k) release(operands[k].node());
+  // No recursion: what nobody uses any more may be as deep as a graph.
+  std::vector<std::uint32_t> unused = {node};
+  const auto drop = [&](std::uint32_t used) {
+    if (--uses[used] == 0) unused.push_back(used);
+  };
+  while (!unused.empty()) {
+    const std::uint32_t i = unused.back();
+    unused.pop_back();
+    if (kinds[i] != SumKind::kNone) {
+      for (const Term& term : terms_of(i)) {
+        for (const std::uint32_t factor : factors_of(term)) drop(factor);
+      }
+      continue;
+    }
+    const Node& operation = graph.dag.node(i);
+    const Ref operands[] = {operation.a, operation.b, operation.c};
+    for (int k = 0; k < arity(operation.op); ++k) drop(operands[k].node());
+  }
 }
 
 }  // namespace sinew::program

@@ -142,6 +142,21 @@ TEST(Polynomials, ASumOfWhichOneTermIsLeftIsPartOfAProduct) {
   EXPECT_EQ(system.uses[y.node()], 1U);
 }
 
+TEST(Polynomials, WhatNobodyUsesMayBeDeep) {
+  // (sin sin ... x + y) - (sin sin ... x - z) is y + z.
+  constexpr int kDepth = 200'000;
+  Computation c;
+  c.inputs = 3;
+  const Ref x = c.dag.input(0), y = c.dag.input(1), z = c.dag.input(2);
+  Ref deep = x;
+  for (int k = 0; k < kDepth; ++k) deep = c.dag.sin(deep);
+  c.results = {c.dag.subtract(c.dag.add(deep, y), c.dag.subtract(deep, z))};
+  Polynomials system(c);
+  system.read();
+  EXPECT_EQ(system.uses[x.node()], 0U);
+  EXPECT_EQ(system.uses, counted_uses(system));
+}
+
 // No recursion: as deep as a graph may be.
 TEST(Polynomials, ReadLongChains) {
   constexpr std::uint32_t kFactors = 100'000, kTerms = 2'000;
