@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kMostInRegisters = 8;
 // Angles at a time: more need more registers than there are beside those that are held.
 constexpr std::size_t kInStep = 3;
+constexpr std::size_t kInStepOfFloats = 2;  // each in two vectors of doubles
 
 // Rows that lie one behind the other.
 struct Run {
@@ -107,7 +108,8 @@ class BlockSines {
     ConstantTable table(place_);
     const Ir ir = arithmetic(table);
     LLVMValueRef sum = LLVMConstNull(doubles_);
-    const std::size_t groups = (rows_.size() + kInStep - 1) / kInStep;
+    const std::size_t in_step = type_ == doubles_ ? kInStep : kInStepOfFloats;
+    const std::size_t groups = (rows_.size() + in_step - 1) / in_step;
     for (std::size_t group = 0, k = 0; group < groups; ++group) {
       std::vector<LLVMValueRef> angles;
       for (const std::size_t end = rows_.size() * (group + 1) / groups; k < end; ++k) {

@@ -17,10 +17,10 @@ struct BlockParameters {
   LLVMValueRef in = nullptr, out = nullptr, row_bytes = nullptr;
 };
 
-// Those of the inputs in `rows`, which ascend. A few angles are computed three at a time, operation
-// by operation, and are in registers afterwards. Those of many are in memory, written by loops: a
-// loop of fifty instructions takes the time of as many copies of it, for its iterations do not wait
-// for each other.
+// Those of the inputs in `rows`, which ascend. A few angles are computed two or three at a time,
+// operation by operation, and are in registers afterwards. Those of many are in memory, written by
+// loops: a loop of fifty instructions takes the time of as many copies of it, for its iterations do
+// not wait for each other.
 bool sines_are_in_registers(const std::vector<std::uint32_t>& rows);
 
 // `type`: a vector of numbers. `array`: for all sines, behind them all cosines, wherever they are
