@@ -11,10 +11,10 @@
 #include <memory>
 #include <set>
 
+#include "sinew/base/spelling.h"
 #include "sinew/blocks/elaborate_items.h"
 #include "sinew/blocks/parser.h"
 #include "sinew/data/embedded.h"
-#include "sinew/data/spelling.h"
 
 namespace sinew::blocks {
 namespace {

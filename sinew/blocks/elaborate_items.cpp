@@ -6,7 +6,7 @@
 #include <charconv>
 #include <set>
 
-#include "sinew/data/spelling.h"
+#include "sinew/base/spelling.h"
 
 namespace sinew::blocks {
 namespace {
@@ -212,7 +212,7 @@ void ItemElaborator::domain(const Node& node) {
         if (known.count({semantic, coordinates})) continue;
         error(formula.place, domain.name,
               fmt::format("{} has no coordinates '{}'", semantic, coordinates),
-              data::did_you_mean(coordinates, names, "declare them with 'coordinates'"));
+              did_you_mean(coordinates, names, "declare them with 'coordinates'"));
       }
     }
   }
@@ -348,10 +348,10 @@ void ItemElaborator::function(const Node& node) {
                            : name == "header" ? &function.header
                                               : nullptr;
       if (!place || !field.has("text")) {
-        error(field.place, function.name,
-              fmt::format("functions have no setting '{}' with this value", name),
-              data::did_you_mean(name, kSettings,
-                                 "write library, fname or header with a text in quotes"));
+        error(
+            field.place, function.name,
+            fmt::format("functions have no setting '{}' with this value", name),
+            did_you_mean(name, kSettings, "write library, fname or header with a text in quotes"));
       } else {
         *place = field.text("text");
       }
@@ -408,11 +408,10 @@ void ItemElaborator::conversion(const Node& node) {
     } else if (name == "loses" && setting.has("text")) {
       conversion.loses = setting.text("text");
     } else {
-      error(
-          setting.place, about,
-          fmt::format("conversions have no setting '{}' with this value", name),
-          data::did_you_mean(name, kSettings,
-                             "write cost = NUMBER, wcet = \"2us\" (at most 1 s) or loses = \"…\""));
+      error(setting.place, about,
+            fmt::format("conversions have no setting '{}' with this value", name),
+            did_you_mean(name, kSettings,
+                         "write cost = NUMBER, wcet = \"2us\" (at most 1 s) or loses = \"…\""));
     }
   }
   declarations_.conversions.push_back(std::move(conversion));

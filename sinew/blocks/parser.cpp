@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "sinew/base/spelling.h"
 #include "sinew/blocks/parser_impl.h"
-#include "sinew/data/spelling.h"
 
 namespace sinew::blocks {
 namespace {
@@ -88,10 +88,10 @@ Node Parser::parse_item(std::size_t depth) {
          "describe data: import, module, domain, ddr, algebraic, units, alias, dproto, view, "
          "conversion, fproto, relation");
   }
-  fail(fmt::format("{} where an item should begin", found()),
-       data::did_you_mean(
-           word, item_keywords(),
-           fmt::format("an item begins with one of {}", fmt::join(item_keywords(), ", "))));
+  fail(
+      fmt::format("{} where an item should begin", found()),
+      did_you_mean(word, item_keywords(),
+                   fmt::format("an item begins with one of {}", fmt::join(item_keywords(), ", "))));
 }
 
 Node Parser::parse_import() {
@@ -147,13 +147,12 @@ std::string Parser::parse_form() {
   const std::string kind = expect_name("Scalar, Vector or Matrix");
   static const std::vector<std::string> kinds = {"Scalar", "Vector", "Matrix"};
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
-    throw Error(
-        Problem{place,
-                {},
-                fmt::format("'{}' is no algebraic form", kind),
-                data::did_you_mean(kind, kinds, "write Scalar{x,y}, Vector{3} or Matrix{3,3}"),
-                Severity::kError,
-                {}});
+    throw Error(Problem{place,
+                        {},
+                        fmt::format("'{}' is no algebraic form", kind),
+                        did_you_mean(kind, kinds, "write Scalar{x,y}, Vector{3} or Matrix{3,3}"),
+                        Severity::kError,
+                        {}});
   }
   expect("{");
   std::string form = kind + "{";

@@ -10,8 +10,8 @@
 //   older geometric
 #include <fmt/format.h>
 
+#include "sinew/base/spelling.h"
 #include "sinew/blocks/parser_impl.h"
-#include "sinew/data/spelling.h"
 
 namespace sinew::blocks {
 

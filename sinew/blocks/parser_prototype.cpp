@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "sinew/base/spelling.h"
 #include "sinew/blocks/parser_impl.h"
-#include "sinew/data/spelling.h"
 
 namespace sinew::blocks {
 
@@ -42,13 +42,13 @@ Node Parser::parse_field() {
   } else if (std::find(kFields.begin(), kFields.end(), name) != kFields.end()) {
     expect("=");
   } else {
-    throw Error(Problem{
-        place,
-        {},
-        fmt::format("prototypes have no field '{}'", name),
-        data::did_you_mean(name, kFields, fmt::format("use one of {}", fmt::join(kFields, ", "))),
-        Severity::kError,
-        {}});
+    throw Error(
+        Problem{place,
+                {},
+                fmt::format("prototypes have no field '{}'", name),
+                did_you_mean(name, kFields, fmt::format("use one of {}", fmt::join(kFields, ", "))),
+                Severity::kError,
+                {}});
   }
   const Place value_place = lexer_.place();
   if (name == "semantic" || name == "coord") {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "sinew/base/spelling.h"
 #include "sinew/data/library_builder.h"
-#include "sinew/data/spelling.h"
 
 namespace sinew::data {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "sinew/base/spelling.h"
 #include "sinew/data/library_builder.h"
-#include "sinew/data/spelling.h"
 
 namespace sinew::data {
 namespace {

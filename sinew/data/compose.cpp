@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "sinew/data/spelling.h"
+#include "sinew/base/spelling.h"
 
 namespace sinew::data {
 namespace {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <tuple>
 
+#include "sinew/base/spelling.h"
 #include "sinew/data/scanner.h"
-#include "sinew/data/spelling.h"
 
 namespace sinew::data {
 namespace {

@@ -8,8 +8,8 @@
 #include <queue>
 #include <set>
 
+#include "sinew/base/spelling.h"
 #include "sinew/data/plan_changes.h"
-#include "sinew/data/spelling.h"
 
 namespace sinew::data {
 namespace {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "sinew/base/spelling.h"
 #include "sinew/data/representation_readers.h"
-#include "sinew/data/spelling.h"
 
 namespace sinew::data {
 namespace {

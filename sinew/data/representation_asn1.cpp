@@ -8,8 +8,8 @@
 
 #include <map>
 
+#include "sinew/base/spelling.h"
 #include "sinew/data/representation_readers.h"
-#include "sinew/data/spelling.h"
 
 namespace sinew::data {
 namespace {

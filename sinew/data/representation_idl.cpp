@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
+#include "sinew/base/spelling.h"
 #include "sinew/data/representation_readers.h"
-#include "sinew/data/spelling.h"
 
 namespace sinew::data {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "sinew/data/spelling.h"
+#include "sinew/base/spelling.h"
 
 namespace sinew::data {
 namespace {

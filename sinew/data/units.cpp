@@ -8,7 +8,6 @@
 
 #include "sinew/base/error.h"
 #include "sinew/data/embedded.h"
-#include "sinew/data/spelling.h"
 
 namespace sinew::data {
 namespace {
@@ -71,6 +70,10 @@ UnitTable UnitTable::read(std::string_view text, const std::string& file) {
       if (!(row.scale > 0)) fail(file, "unit " + row.name + " has no positive scale", "");
       table.rows_.push_back(std::move(row));
     }
+    for (const auto& entry : json.value("usual", nlohmann::json::array()))
+      table.usual_.push_back({entry.at("symbols"), entry.at("name")});
+    for (const auto& entry : json.value("synonyms", nlohmann::json::array()))
+      table.synonyms_.push_back({entry.at("text"), entry.at("means")});
   } catch (const nlohmann::json::exception& error) {
     fail(file, fmt::format("the unit table lacks an entry: {}", error.what()),
          "see metamodels/units.json");
@@ -83,13 +86,14 @@ const UnitTable& UnitTable::shipped() {
   return table;
 }
 
-std::optional<Unit> UnitTable::find_single(std::string_view text) const {
+std::optional<Unit> UnitTable::find_single(std::string_view text, Words words) const {
   const auto unit = [&](const Row& row, double scale) {
     return Unit{std::string(text), row.dimension, row.scale * scale, scale == 1 ? row.offset : 0};
   };
   const auto named = [&](const Row& row, std::string_view name) {
-    return row.name == name ||
-           std::find(row.symbols.begin(), row.symbols.end(), name) != row.symbols.end();
+    return (words != Words::kSymbols && row.name == name) ||
+           (words != Words::kNames &&
+            std::find(row.symbols.begin(), row.symbols.end(), name) != row.symbols.end());
   };
   for (const Row& row : rows_) {
     if (named(row, text)) return unit(row, 1);
@@ -97,10 +101,11 @@ std::optional<Unit> UnitTable::find_single(std::string_view text) const {
   for (const Prefix& prefix : prefixes_) {
     for (const Row& row : rows_) {
       if (!row.takes_prefix) continue;
-      if (text.starts_with(prefix.name) && text.substr(prefix.name.size()) == row.name) {
+      if (words != Words::kSymbols && text.starts_with(prefix.name) &&
+          text.substr(prefix.name.size()) == row.name) {
         return unit(row, prefix.scale);
       }
-      if (text.starts_with(prefix.symbol)) {
+      if (words != Words::kNames && text.starts_with(prefix.symbol)) {
         const std::string_view rest = text.substr(prefix.symbol.size());
         for (const std::string& symbol : row.symbols) {
           if (rest == symbol) return unit(row, prefix.scale);
@@ -167,7 +172,7 @@ std::optional<Unit> UnitTable::find_symbol_product(std::string_view text) const 
       if (std::abs(exponent) > kMaximumUnitExponent) return std::nullopt;
       word = word.substr(0, caret);
     }
-    const auto factor = find_single(word);
+    const auto factor = find_single(word, Words::kSymbols);
     if (!factor || factor->offset != 0) return std::nullopt;
     auto product = product_of(result, *factor, sign * exponent);
     if (!product) return std::nullopt;
@@ -178,26 +183,20 @@ std::optional<Unit> UnitTable::find_symbol_product(std::string_view text) const 
   }
 }
 
-std::optional<Unit> UnitTable::find(std::string_view text, UnitProblem* problem) const {
+std::optional<Unit> UnitTable::find(std::string_view text, UnitProblem* problem,
+                                    UnitSpelling spelling) const {
   if (auto unit = find_single(text)) return unit;
   if (auto unit = find_qudt_product(text)) return unit;
   if (auto unit = find_symbol_product(text)) return unit;
   if (problem) {
     problem->what = fmt::format("'{}' is no unit of the QUDT table", text);
-    const auto close = suggestions(text);
-    problem->remedy = close.empty() ? "use a QUDT name (MilliM, M-PER-SEC) or symbols (mm, m/s)"
-                                    : fmt::format("did you mean {}?", fmt::join(close, " or "));
+    const auto close = suggestions(text, spelling);
+    problem->remedy = !close.empty() ? fmt::format("did you mean {}?", fmt::join(close, " or "))
+                      : spelling == UnitSpelling::kQudt
+                          ? "use a QUDT name (MilliM, M-PER-SEC)"
+                          : "use a QUDT name (MilliM, M-PER-SEC) or symbols (mm, m/s)";
   }
   return std::nullopt;
-}
-
-std::vector<std::string> UnitTable::suggestions(std::string_view text) const {
-  std::vector<std::string> names;
-  for (const Row& row : rows_) {
-    names.push_back(row.name);
-    names.insert(names.end(), row.symbols.begin(), row.symbols.end());
-  }
-  return close_spellings(text, names);
 }
 
 std::string coherent_unit(const Dimension& dimension) {

@@ -4,12 +4,13 @@
 //   find_unit("MilliM")  find_unit("mm")                a row of the table, with a prefix where it
 //   takes one find_unit("M-PER-SEC2")  find_unit("N-M")           QUDT's own way to write products
 //   find_unit("rad/s")  find_unit("kg*m^2/s^2")         products of symbols; a middle dot is a
-//   product too
+//   product too; names and symbols are not mixed in one: M/S would be metres a siemens
 //
 // Only a unit that stands alone may have an offset: "degree Celsius per metre" has none that means
 // anything.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,6 +42,13 @@ struct UnitProblem {
   std::string remedy;
 };
 
+// How the place in which a unit stands spells it: suggestions for one that is misspelt are spelt
+// so.
+enum class UnitSpelling : std::uint8_t {
+  kEither,  // a QUDT name or symbols
+  kQudt,    // a QUDT name: the end of a unit's IRI
+};
+
 // The largest exponent that a unit in a product may have; that of the product is kMaximumExponent.
 constexpr int kMaximumUnitExponent = 12;
 
@@ -52,9 +60,13 @@ class UnitTable {
   static const UnitTable& shipped();
 
   // The unit, or nothing and (where asked for) the reason.
-  std::optional<Unit> find(std::string_view text, UnitProblem* problem = nullptr) const;
-  // Unit names close to a misspelt one, the closest first; at most three.
-  std::vector<std::string> suggestions(std::string_view text) const;
+  std::optional<Unit> find(std::string_view text, UnitProblem* problem = nullptr,
+                           UnitSpelling spelling = UnitSpelling::kEither) const;
+  // Units that a misspelt one may mean, the likeliest first; at most three: what people write in
+  // its place ("Nm"), what differs in case alone ("Kg"), what is close (base/spelling.h), and a
+  // product of which each factor is one of these.
+  std::vector<std::string> suggestions(std::string_view text,
+                                       UnitSpelling spelling = UnitSpelling::kEither) const;
 
  private:
   struct Prefix {
@@ -68,12 +80,25 @@ class UnitTable {
     double scale = 1, offset = 0;
     bool takes_prefix = false;
   };
-  std::optional<Unit> find_single(std::string_view text) const;
+  enum class Words : std::uint8_t { kNames, kSymbols, kBoth };
+  std::optional<Unit> find_single(std::string_view text, Words words = Words::kBoth) const;
   std::optional<Unit> find_qudt_product(std::string_view text) const;
   std::optional<Unit> find_symbol_product(std::string_view text) const;
 
+  std::vector<std::string> close_units(std::string_view text) const;
+  std::string corrected_product(std::string_view text) const;
+  std::string qudt_name(const std::string& unit) const;
+
+  struct Spellings {
+    std::string symbols, name;  // "N*m", "N-M"
+  };
+  struct Synonym {
+    std::string text, means;
+  };
   std::vector<Prefix> prefixes_;
   std::vector<Row> rows_;
+  std::vector<Spellings> usual_;  // beside the rows
+  std::vector<Synonym> synonyms_;
 };
 
 // The coherent SI unit of a dimension by its QUDT name: "M-PER-SEC", "N-M". Of units with the same

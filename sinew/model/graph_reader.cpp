@@ -107,7 +107,8 @@ const GraphReader::Unit& GraphReader::unit(Id node, Id iri) {
                             fmt::format("name a unit of <{}>, such as M or RAD", kUnitNamespace)};
   if (name.starts_with(kUnitNamespace)) {
     name.remove_prefix(kUnitNamespace.size());
-    if (const auto unit = data::UnitTable::shipped().find(name, &problem)) {
+    if (const auto unit =
+            data::UnitTable::shipped().find(name, &problem, data::UnitSpelling::kQudt)) {
       found->second = {unit->dimension, unit->scale};
       if (unit->offset == 0) return found->second;
       problem = {fmt::format("the unit {} has an offset", name), "use one that starts at zero"};

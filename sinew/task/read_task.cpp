@@ -71,7 +71,8 @@ bool Reader::read_quantity(Id node, std::string_view what) {
                             fmt::format("name a unit of <{}>", kUnitNamespace)};
   std::optional<data::Unit> unit;
   if (name.starts_with(kUnitNamespace))
-    unit = data::UnitTable::shipped().find(name.substr(kUnitNamespace.size()), &problem);
+    unit = data::UnitTable::shipped().find(name.substr(kUnitNamespace.size()), &problem,
+                                           data::UnitSpelling::kQudt);
   if (unit && unit->offset != 0) {
     problem = {fmt::format("the unit {} has an offset", name), "use one that starts at zero"};
     unit.reset();

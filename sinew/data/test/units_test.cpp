@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "sinew/base/error.h"
+#include "sinew/data/embedded.h"
 
 namespace sinew::data {
 namespace {
@@ -66,6 +68,67 @@ TEST(Units, ThatDoNotExistAreRefusedWithASuggestion) {
   EXPECT_EQ(problem.remedy, "did you mean UNITLESS or unitless?");
   for (const char* text : {"", "m^99", "m//s", "/s", "m^", "PER-PER-SEC", "-", "M-PER-", "m^-"}) {
     EXPECT_FALSE(find_unit(text)) << text;
+  }
+}
+
+TEST(Units, ThatAreMisspeltAreSuggestedAsTheirPlaceSpellsThem) {
+  const struct {
+    const char *text, *either, *qudt;
+  } cases[] = {
+      {"Kg", "kg", "KiloGM"},
+      {"KG", "kg", "KiloGM"},
+      {"kilogramm", "", ""},
+      {"Nm", "N*m or nm", "N-M or NanoM"},
+      {"MM", "Mm or mm", "MegaM or MilliM"},
+      {"Deg", "deg or DEG", "DEG"},
+      {"degree", "deg", "DEG"},
+      {"Rad", "rad or RAD", "RAD"},
+      {"M/S", "m/s", "M-PER-SEC"},
+      {"Rad/s", "rad/s", "RAD-PER-SEC"},
+      {"rad/sec", "rad/s", "RAD-PER-SEC"},
+      {"m/s2", "m/s^2", "M-PER-SEC2"},
+      {"kgm2", "kg*m^2", "KiloGM-M2"},
+      {"meter", "m", "M"},
+      {"RAD-PER-SECC", "RAD-PER-SEC or RAD-PER-SEC2 or DEG-PER-SEC", ""},
+      {"N*m*sec/radd", "N*m*s/rad", ""},
+      {"KiloGm-M2", "KiloGM-M2", "KiloGM-M2"},
+      {"xyzzy", "", ""},
+  };
+  const auto remedy = [](const char* text, UnitSpelling spelling) {
+    UnitProblem problem;
+    EXPECT_FALSE(UnitTable::shipped().find(text, &problem, spelling)) << text;
+    return problem.remedy;
+  };
+  for (const auto& [text, either, qudt] : cases) {
+    const auto suggests = [&](const std::string& expected, UnitSpelling spelling) {
+      if (expected.empty()) return;
+      EXPECT_EQ(remedy(text, spelling), "did you mean " + expected + "?") << text;
+    };
+    suggests(either, UnitSpelling::kEither);
+    suggests(qudt, UnitSpelling::kQudt);
+  }
+  EXPECT_EQ(remedy("xyzzy", UnitSpelling::kQudt), "use a QUDT name (MilliM, M-PER-SEC)");
+}
+
+// Who writes M/S means metres a second, and not metres a siemens.
+TEST(Units, AreNotNamesAndSymbolsInOneProduct) {
+  for (const char* text : {"M/S", "m/SEC", "KiloGM*m"}) EXPECT_FALSE(find_unit(text)) << text;
+  EXPECT_TRUE(find_unit("m/S"));
+}
+
+// What is suggested is a unit, and the same in both spellings.
+TEST(Units, ThatAreSuggestedExist) {
+  const auto json = nlohmann::json::parse(embedded_file("units.json"));
+  for (const auto& usual : json.at("usual")) {
+    const auto symbols = find_unit(usual.at("symbols").get<std::string>());
+    const auto name = find_unit(usual.at("name").get<std::string>());
+    ASSERT_TRUE(symbols && name) << usual;
+    EXPECT_EQ(symbols->dimension, name->dimension) << usual;
+    EXPECT_NEAR(symbols->scale / name->scale, 1, 1e-15) << usual;
+  }
+  for (const auto& synonym : json.at("synonyms")) {
+    EXPECT_FALSE(find_unit(synonym.at("text").get<std::string>())) << synonym;
+    EXPECT_TRUE(find_unit(synonym.at("means").get<std::string>())) << synonym;
   }
 }
 

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "sinew/rdf/jsonld/nearest.h"
+#include <string>
+#include <vector>
+
+#include "sinew/base/spelling.h"
 
 namespace sinew::jsonld {
 namespace {
@@ -32,16 +35,16 @@ std::string nearest_term(const Context& active, std::string_view text) {
   if (const std::string_view scope = scope_of(active, text); !scope.empty()) {
     return fmt::format("it is defined for nodes of type \"{}\" only: add that type", scope);
   }
-  Nearest nearest(text);
+  std::vector<std::string> terms;
   for (const TermTable::Entry& entry : active.terms.entries()) {
     if (entry.definition == nullptr || entry.definition->iri.empty()) continue;
-    nearest.offer(entry.term);
+    terms.emplace_back(entry.term);
     each_definition(entry.definition->context, [&](const json::Value& definition) {
-      for (const json::Member& member : definition.members()) nearest.offer(member.name());
+      for (const json::Member& member : definition.members()) terms.emplace_back(member.name());
     });
   }
-  if (!nearest.found().empty()) return fmt::format("did you mean \"{}\"?", nearest.found());
-  return {};
+  const auto close = close_spellings(text, terms, 1);
+  return close.empty() ? "" : fmt::format("did you mean \"{}\"?", close.front());
 }
 
 }  // namespace

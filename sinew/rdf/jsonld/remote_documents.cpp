@@ -5,9 +5,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "sinew/base/spelling.h"
 #include "sinew/rdf/iri/characters.h"
 #include "sinew/rdf/jsonld/keywords.h"
-#include "sinew/rdf/jsonld/nearest.h"
 
 namespace sinew::jsonld {
 namespace {
@@ -30,11 +30,12 @@ std::string undo_percent_encoding(std::string_view text) {
 }
 
 std::string remedy_for_unknown(std::string_view url, const catalogue::Catalogue& catalogue) {
-  Nearest nearest(url);
-  for (const auto& [iri, document] : catalogue.documents()) nearest.offer(iri);
+  std::vector<std::string> known;
+  for (const auto& [iri, document] : catalogue.documents()) known.emplace_back(iri);
   std::string directory = "give the directory that holds it with --catalog DIR";
-  if (nearest.found().empty()) return directory;
-  return fmt::format("did you mean {}? Otherwise {}", nearest.found(), directory);
+  const auto close = close_spellings(url, known, 1);
+  if (close.empty()) return directory;
+  return fmt::format("did you mean {}? Otherwise {}", close.front(), directory);
 }
 
 }  // namespace
