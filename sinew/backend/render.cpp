@@ -23,6 +23,16 @@ struct Tag {
 
 constexpr int kDeepestSections = 64;
 
+bool names_anywhere(const Fields& fields, std::string_view name) {
+  if (fields.values.find(name) != fields.values.end()) return true;
+  return std::any_of(fields.values.begin(), fields.values.end(), [&](const auto& field) {
+    const auto* list = std::get_if<FieldList>(&field.second);
+    return list != nullptr && std::any_of(list->begin(), list->end(), [&](const Fields& item) {
+             return names_anywhere(item, name);
+           });
+  });
+}
+
 // Writes while it reads: templates are short, and each is filled once in a process.
 class Renderer {
  public:
@@ -122,6 +132,9 @@ class Renderer {
   // Returns the place behind it.
   std::size_t section(const Tag& begin) {
     const auto* value = find(begin.name);
+    if (value == nullptr && !names_anywhere(*fields_.front(), begin.name))
+      refuse(begin.begin, "nothing names the section " + name(begin),
+             "correct the name, or have what fills the template say whether it is there");
     const auto* flag = value == nullptr ? nullptr : std::get_if<bool>(value);
     const auto* list = value == nullptr ? nullptr : std::get_if<FieldList>(value);
     const bool none =

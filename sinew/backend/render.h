@@ -5,8 +5,9 @@
 // They are Mustache (https://mustache.github.io/mustache.5.html), of which these are known:
 // {{name}} and {{{name}}} alike, since nothing is escaped; {{#name}} and {{^name}} to {{/name}};
 // {{! comment}}. A line that held the ends of sections and is blank when they are filled in is left
-// out. A name in braces that nothing fills in is an error, not a blank; a section asks whether its
-// name is there, so a name that is not is as good as `false` to it.
+// out. A name in braces that nothing fills in is an error, not a blank; and so is a section whose
+// name no field has. Where a field has it, if only of another item of a list, the section asks
+// whether it is there.
 #pragma once
 
 #include <map>
@@ -36,7 +37,7 @@ struct Fields {
 std::string_view template_text(std::string_view path);
 
 // Throws Error, with the line of the template, if it is malformed, has a name that `fields` do not
-// fill in, or one in the place of a text that is a section there.
+// fill in, a section that they do not name, or a section's name in the place of a text.
 std::string render(std::string_view path, const Fields& fields);
 
 // The same for a text; `path` names it in errors.

@@ -25,6 +25,7 @@ TEST(Render, RefusesNamesThatNothingFillsIn) {
   inner.text("inner", "x");
   fields.text("name", "y");
   fields.list("list", {inner});
+  fields.section("absent", false);
   const struct {
     const char* text;
     const char* error;
@@ -33,7 +34,7 @@ TEST(Render, RefusesNamesThatNothingFillsIn) {
       {"{{name}} {{{unknown}}}", "a template:1: nothing fills in 'unknown'"},
       {"{{#list}}{{inner}}{{/list}}{{inner}}", "a template:1: nothing fills in 'inner'"},
       {"{{#list}}\n{{unknown}}{{/list}}", "a template:2: nothing fills in 'unknown'"},
-      {"{{^unknown}}{{unknown}}{{/unknown}}", "a template:1: nothing fills in 'unknown'"},
+      {"{{^absent}}{{absent}}{{/absent}}", "a template:1: 'absent' is a section, and has no text"},
       // Of Mustache, but not of what is known here; names have no blanks around them.
       {"{{&name}}", "nothing fills in '&name'"},
       {"{{>name}}", "nothing fills in '>name'"},
@@ -48,6 +49,7 @@ TEST(Render, RefusesNamesThatNothingFillsIn) {
 
 TEST(Render, AsksInSectionsWhetherANameIsThere) {
   Fields fields;
+  fields.section("unit", false);
   const std::string text = "joint{{#unit}} [{{unit}}]{{/unit}}{{^unit}}, no unit{{/unit}}";
   EXPECT_EQ(filled(text, fields), "joint, no unit");
   fields.text("unit", "rad");
@@ -67,7 +69,24 @@ TEST(Render, LeavesOutSectionsThatAreNotThere) {
   EXPECT_EQ(filled("{{#there}}1{{/there}}{{^there}}2{{/there}}", fields), "1");
   EXPECT_EQ(filled("{{#missing}}1{{/missing}}{{^missing}}2{{/missing}}", fields), "2");
   EXPECT_EQ(filled("{{#empty}}1{{/empty}}{{^empty}}2{{/empty}}", fields), "2");
-  EXPECT_EQ(filled("{{#unknown}}1{{#there}}2{{/there}}{{/unknown}}3", fields), "3");
+  EXPECT_EQ(filled("{{#missing}}1{{#there}}2{{/there}}{{/missing}}3", fields), "3");
+}
+
+TEST(Render, RefusesSectionsThatNothingNames) {
+  Fields first, second, fields;
+  first.text("name", "a");
+  second.section("last", true);
+  fields.list("items", {first, second});
+  fields.section("missing", false);
+  const auto refused = [&](const char* text) { return refusal([&] { filled(text, fields); }); };
+  EXPECT_THAT(refused("a\n{{#itmes}}{{name}}{{/itmes}}"),
+              testing::HasSubstr("a template:2: nothing names the section 'itmes'; correct"));
+  EXPECT_THAT(refused("{{^mising}}1{{/mising}}"), testing::HasSubstr("the section 'mising'"));
+  EXPECT_THAT(refused("{{#items}}{{#lats}}{{/lats}}{{/items}}"),
+              testing::HasSubstr("the section 'lats'"));
+  EXPECT_THAT(refused("{{# missing}}{{/ missing}}"), testing::HasSubstr("the section ' missing'"));
+  EXPECT_EQ(filled("{{#items}}{{^last}},{{/last}}{{/items}}", fields), ",")
+      << "another item of the list names it";
 }
 
 TEST(Render, RepeatsAListAndSeesWhatIsAroundIt) {
@@ -92,6 +111,7 @@ TEST(Render, LeavesOutLinesThatHoldNothingButSections) {
 TEST(Render, RefusesMalformedTemplates) {
   Fields fields;
   fields.section("a", true);
+  fields.section("b", false);
   for (const char* text : {"{{a", "{{{a}}", "{{#a}}", "{{#b}}", "{{/a}}", "{{#a}}{{/b}}",
                            "{{#a}}{{#b}}{{/a}}{{/b}}", "{{^a}}{{#b}}{{/a}}"})
     EXPECT_THROW(filled(text, fields), Error) << text;
