@@ -1,6 +1,10 @@
 // Statements that would be passed over in silence, because the node that makes them does not have
-// the type by which it is found.
+// the type by which it is found; and joints that would be used in silence, though chains list
+// others.
 #include <fmt/format.h>
+
+#include <array>
+#include <unordered_map>
 
 #include "sinew/model/read_joints.h"
 #include "sinew/model/structure_reader.h"
@@ -93,13 +97,57 @@ void check_chains(GraphReader& reader) {
   }
 }
 
+// Where chains list joints, those that they leave out move all the same. Between two links that
+// listed joints connect, one has been forgotten; at one of them, it may belong to what was mounted
+// there.
+void check_joints_are_listed(GraphReader& reader, const Structure& structure) {
+  const Ids& ids = reader.ids;
+  std::unordered_map<Id, Id> chain_of;  // by joint
+  for (const Id chain : reader.all(ids.chain))
+    for (const Id joint : reader.objects(chain, ids.joints)) chain_of.emplace(joint, chain);
+  if (chain_of.empty()) return;
+  std::unordered_map<int, Id> chain_at;  // by link
+  const auto ends = [&](const Structure::Joint& joint) {
+    return std::array{structure.frames[joint.parent].link, structure.frames[joint.child].link};
+  };
+  for (const Structure::Joint& joint : structure.joints)
+    if (const auto chain = chain_of.find(joint.iri); chain != chain_of.end())
+      for (const int link : ends(joint)) chain_at.emplace(link, chain->second);
+  for (const Structure::Joint& joint : structure.joints) {
+    if (joint.kind == JointKind::kFixed || chain_of.contains(joint.iri)) continue;
+    const auto [parent, child] = ends(joint);
+    const auto at_parent = chain_at.find(parent), at_child = chain_at.find(child);
+    const bool parent_listed = at_parent != chain_at.end(),
+               child_listed = at_child != chain_at.end();
+    if (!parent_listed && !child_listed) continue;
+    const auto name = [&](int link) { return reader.text(structure.links[link].iri); };
+    const std::string_view chain =
+        reader.text(parent_listed ? at_parent->second : at_child->second);
+    if (parent_listed && child_listed) {
+      reader.error(joint.iri, ids.between_attachments,
+                   fmt::format("the joint moves <{}> and <{}> of <{}>, which does not list it, and "
+                               "nor does another chain",
+                               name(parent), name(child), chain),
+                   "add it to the chain's \"joints\"");
+    } else {
+      reader.warning(joint.iri, ids.between_attachments,
+                     fmt::format("the joint moves <{}> against <{}> of <{}>, though no chain lists "
+                                 "it",
+                                 name(parent_listed ? child : parent),
+                                 name(parent_listed ? parent : child), chain),
+                     "add it to the chain's \"joints\", or to those of a chain of its own");
+    }
+  }
+}
+
 }  // namespace
 
-void report_unread(GraphReader& reader) {
+void report_unread(GraphReader& reader, const Structure& structure) {
   check_coordinates(reader);
   check_inertias_are_typed(reader);
   check_joints_are_typed(reader);
   check_chains(reader);
+  check_joints_are_listed(reader, structure);
 }
 
 }  // namespace sinew::model

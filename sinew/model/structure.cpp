@@ -23,7 +23,7 @@ Structure read_structure(graph::Store& store, const graph::Places& places, Repor
   read_joints(reader, structure);
   read_inertias(reader, structure);
   read_base_accelerations(reader, structure);
-  report_unread(reader);
+  report_unread(reader, structure);
   return structure;
 }
 

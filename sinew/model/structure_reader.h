@@ -15,7 +15,7 @@ void read_base_accelerations(GraphReader& reader, Structure& structure);
 
 // What the others pass over, since it does not say what it is: numbers of poses and inertias, and
 // joints, without the type by which they are found; and joints of a chain that are none.
-void report_unread(GraphReader& reader);
+void report_unread(GraphReader& reader, const Structure& structure);
 
 // Whether the node has any number of a rigid-body inertia.
 bool states_inertia(const GraphReader& reader, Id node);

@@ -38,6 +38,15 @@ std::string position_coordinates(const std::string& id, const std::string& of,
          " ; coord:as-seen-by :" + seen_by + " ; qudt:unit unit:M ; " + xyz + " .\n";
 }
 
+// Three joints in a row, of which a chain lists some.
+std::string three_joints(const std::string& listed) {
+  return link("base") + link("upper", {"elbow"}) + link("lower", {"wrist"}) + link("hand") +
+         pose("elbow", "upper-root", "0 0 1") + pose("wrist", "lower-root", "0 0 1") +
+         joint("j1", "base-root", "upper-root") + joint("j2", "elbow", "lower-root") +
+         joint("j3", "wrist", "hand-root") + ":chain a kc:KinematicChain ; kc:joints " + listed +
+         " .\n";
+}
+
 struct Unclear {
   const char* name;
   std::string model;
@@ -91,6 +100,9 @@ std::vector<Unclear> unclear_models() {
            pose("grip", "arm-root", "0 0.2 0"),
        "r#grip", "of it, 0.2 m apart"},
       {"LimitsTwice", arm() + limit("l1", "1.0") + limit("l2", "2.0"), "r#l2", "stated already"},
+      {"JointThatItsChainForgets", three_joints(":j1, :j3"), "r#j2",
+       "moves <https://example.org/r#upper> and <https://example.org/r#lower> of "
+       "<https://example.org/r#chain>, which does not list it"},
       {"ChainOfNoJoint", arm() + ":chain a kc:KinematicChain ; kc:joints :j, :k .", "r#chain",
        "<https://example.org/r#k> is no joint"},
   };
@@ -117,6 +129,30 @@ TEST(ClearModels, AreTheSameModelsWithoutTheFault) {
   EXPECT_FALSE(model.report.has_errors()) << model.problems();
   ASSERT_EQ(model.tree.bodies.size(), 2u);
   EXPECT_EQ(model.tree.bodies[1].inertia.first_moment.x, 1.0);
+}
+
+TEST(ClearModels, ListAllJointsInChainsOrNone) {
+  for (const char* listed :
+       {":j1, :j2, :j3", ":j3, :j2 . :other a kc:KinematicChain ; kc:joints :j1"}) {
+    Model model;
+    normalise_texts(model, {turtle(three_joints(listed))});
+    EXPECT_EQ(model.problems(), "");
+    EXPECT_EQ(model.tree.joints.size(), 3u);
+  }
+}
+
+// A hand that another model mounts may be of no chain.
+TEST(UnclearModelsThatLoad, WarnOfAJointThatNoChainListsAtTheEndOfOne) {
+  Model model;
+  normalise_texts(model, {turtle(three_joints(":j1, :j2"))});
+  EXPECT_FALSE(model.report.has_errors()) << model.problems();
+  EXPECT_EQ(model.tree.joints.size(), 3u);
+  EXPECT_NE(
+      model.problems().find("r#j3: warning: the joint moves <https://example.org/r#hand> against "
+                            "<https://example.org/r#lower> of <https://example.org/r#chain>, "
+                            "though no chain lists it"),
+      std::string::npos)
+      << model.problems();
 }
 
 // What only a MassCoordinate says is in no solver; that the arm counts as weightless is not silent.
