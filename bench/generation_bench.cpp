@@ -18,6 +18,7 @@
 #include "generate_each.h"
 #include "humanoid_urdf.h"
 #include "kept_memory.h"
+#include "lines_once.h"
 #include "pipeline.h"
 #include "question.h"
 #include "sinew/backend/c_target.h"
@@ -167,6 +168,7 @@ void row_of_all(const test::Robot& robot, bool floating) {
 
 int main(int argc, char** argv) {
   cli::keep_memory();  // as `sinew` does
+  const LinesOnce told_once;
   const std::string part = argc > 1 ? argv[1] : "";
   if (argc > 2) runs = std::atoi(argv[2]);
   std::printf("| solver/robot");
