@@ -53,8 +53,10 @@ std::vector<std::string> close_spellings(std::string_view text, std::span<const 
   }
   std::sort(close.begin(), close.end());
   close.erase(std::unique(close.begin(), close.end()), close.end());
-  if (!close.empty() && close.front().first < kOneEdit)
-    std::erase_if(close, [](const auto& each) { return each.first >= kOneEdit; });
+  if (!close.empty()) {
+    const std::size_t fewest = close.front().first / kOneEdit;
+    std::erase_if(close, [&](const auto& each) { return each.first / kOneEdit > fewest; });
+  }
   if (close.size() > limit) close.resize(limit);
   std::vector<std::string> result;
   for (auto& [distance, name] : close) result.push_back(std::move(name));

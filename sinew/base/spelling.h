@@ -18,8 +18,8 @@ std::size_t spelling_distance(std::string_view a, std::string_view b, std::size_
 inline constexpr std::size_t kLongestComparedWord = 200;
 
 // At most `limit` of `names`, the closest first, equals by name. A third of the characters may be
-// wrong, of four and more at least two, of fewer one; where changes of case are all that one takes,
-// those that take more are left out.
+// wrong, of four and more at least two, of fewer one; those that take more edits than the closest,
+// be it none but changes of case, are left out.
 std::vector<std::string> close_spellings(std::string_view text, std::span<const std::string> names,
                                          std::size_t limit = 3);
 

@@ -33,7 +33,8 @@ TEST(CloseSpellings, AreTheClosestFirstAndEqualsByName) {
   EXPECT_EQ(close_spellings("ab", Names{"", "xy", "b"}), Names{"b"});
 }
 
-TEST(CloseSpellings, LeaveOutTheOthersWhereOnlyTheCaseIsWrong) {
+TEST(CloseSpellings, TakeAsFewEditsAsTheClosest) {
+  EXPECT_EQ(close_spellings("costs", Names{"cost", "loses"}), Names{"cost"});
   EXPECT_EQ(close_spellings("Kg", Names{"G", "K", "KN", "kg", "KG"}), (Names{"KG", "kg"}));
   EXPECT_EQ(close_spellings("JOINT", Names{"joint", "join", "Joint"}), (Names{"Joint", "joint"}));
 }

@@ -89,7 +89,7 @@ TEST(Units, ThatAreMisspeltAreSuggestedAsTheirPlaceSpellsThem) {
       {"m/s2", "m/s^2", "M-PER-SEC2"},
       {"kgm2", "kg*m^2", "KiloGM-M2"},
       {"meter", "m", "M"},
-      {"RAD-PER-SECC", "RAD-PER-SEC or RAD-PER-SEC2 or DEG-PER-SEC", ""},
+      {"RAD-PER-SECC", "RAD-PER-SEC or RAD-PER-SEC2", ""},
       {"N*m*sec/radd", "N*m*s/rad", ""},
       {"KiloGm-M2", "KiloGM-M2", "KiloGM-M2"},
       {"xyzzy", "", ""},
