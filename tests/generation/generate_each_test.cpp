@@ -8,7 +8,9 @@
 
 #include "arm_urdf.h"
 #include "humanoid_urdf.h"
+#include "refusal.h"
 #include "sinew/base/error.h"
+#include "temporary_folder.h"
 
 namespace sinew::test {
 namespace {
@@ -17,14 +19,7 @@ using backend::GeneratedCode;
 
 class GenerateEach : public testing::Test {
  protected:
-  GenerateEach()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("sinew-generation-" +
-                 std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
-    std::filesystem::create_directories(folder_);
-    query_.gravity = "0,0,-9.81";
-  }
-  ~GenerateEach() override { std::filesystem::remove_all(folder_); }
+  GenerateEach() { query_.gravity = "0,0,-9.81"; }
 
   cli::ModelOptions robot(const std::string& urdf) const {
     const std::filesystem::path file = folder_ / "robot.urdf";
@@ -53,16 +48,13 @@ class GenerateEach : public testing::Test {
 
   // What is wrong, as a user reads it; empty where nothing is.
   std::string refusal(const cli::ModelOptions& files) const {
-    try {
+    return sinew::refusal([&] {
       const auto models = cli::load(files);
       cli::generate_each(*models, files, cli::each_solver(query_), "", {});
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    });
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   cli::QueryOptions query_;
 };
 

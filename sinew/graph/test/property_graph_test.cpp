@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 
+#include "refusal.h"
 #include "sinew/graph/domain.h"
 
 namespace sinew::graph {
@@ -45,15 +46,6 @@ struct Written {
   Transaction transaction = store.begin();
   PropertyGraph pg{transaction, store.terms()};
 };
-
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "none";
-}
 
 TEST(PropertyGraph, SeveralEdgesLinkTheSameNodesEachWithItsProperties) {
   Written w;

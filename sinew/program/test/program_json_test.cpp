@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "refusal.h"
 #include "sinew/base/error.h"
 
 namespace sinew::program {
@@ -32,12 +33,7 @@ std::string with(const std::string& from, const std::string& to) {
 }
 
 std::string fault_of(const std::string& text) {
-  try {
-    from_json(text, "sum.json");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "none";
+  return refusal([&] { from_json(text, "sum.json"); });
 }
 
 TEST(ProgramJson, IsReadAndWrittenWithoutLoss) {

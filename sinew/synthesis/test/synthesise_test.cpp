@@ -5,6 +5,7 @@
 
 #include <tuple>
 
+#include "refusal.h"
 #include "sinew/algorithm/read.h"
 #include "sinew/synthesis/read_query.h"
 #include "small_robot.h"
@@ -40,12 +41,7 @@ class SynthesiseTest : public testing::Test {
   }
 
   std::string fault(const Query& query) {
-    try {
-      synthesise(store_, query);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
+    return refusal([&] { synthesise(store_, query); });
   }
 
   graph::Store store_;
