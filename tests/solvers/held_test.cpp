@@ -250,7 +250,7 @@ constexpr Asked kAsked[] = {{"fpk", false},  {"jacobian", false}, {"rnea", false
 
 RandomRobot small(unsigned seed, bool floating) {
   RandomRobot robot;
-  robot.joints = 6;
+  robot.joints = 4;
   robot.floating = floating;
   robot.seed = seed;
   return robot;
