@@ -10,14 +10,15 @@ namespace {
 
 // Everything that is defined once for each kind of processor.
 FieldList renamed(const std::string& name, std::initializer_list<const FlatBody*> bodies,
-                  const std::vector<unsigned>& limb_widths) {
+                  const LimbBody& limbs) {
   std::vector<std::string> shorts = {"lanes",        "angles", "floats",  "bits",
                                      "sincos",       "far",    "any_far", "sincos_all",
                                      "sincos_table", "sample", "block",   "update_numbers"};
   for (const FlatBody* body : bodies) {
     shorts.insert(shorts.end(), body->part_names.begin(), body->part_names.end());
   }
-  for (const unsigned width : limb_widths) shorts.push_back("limbs" + std::to_string(width));
+  shorts.insert(shorts.end(), limbs.part_names.begin(), limbs.part_names.end());
+  for (const unsigned width : limbs.widths) shorts.push_back("limbs" + std::to_string(width));
   const std::string prefix = name + "_";
   FieldList list;
   for (const std::string& text : shorts) {
@@ -94,17 +95,20 @@ RenderedSource flat_source(const program::ScalarProgram& scalar,
     limb_types.push_back(std::move(type));
   }
   fields.list("limb_types", std::move(limb_types));
-  fields.list("renamed", renamed(name, {&sample, &block, &update}, side_by_side.widths));
+  fields.list("renamed", renamed(name, {&sample, &block, &update}, side_by_side));
   fields.section("has_angles", sample.angles + update.angles > 0);
   if (sample.angles + update.angles > 0) {
     fields.text("sincos", render("c/sincos.c.mustache", fields));
   }
   Blocks blocks = {{"parts", &sample.parts}, {"lanes_parts", &block.parts}};
-  if (has_limbs) blocks.emplace_back("limbs_body", &side_by_side.code);
+  if (has_limbs) {
+    blocks.insert(blocks.begin() + 1, {"limbs_parts", &side_by_side.parts});
+    blocks.emplace_back("limbs_body", &side_by_side.code);
+  }
   blocks.emplace_back("body", &sample.code);
   blocks.emplace_back("lanes_body", &block.code);
   return render_with_blocks("c/flat.c.mustache", std::move(fields),
-                            with_update(std::move(blocks), 2));
+                            with_update(std::move(blocks), has_limbs ? 3 : 2));
 }
 
 }  // namespace sinew::backend

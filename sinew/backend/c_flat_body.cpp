@@ -49,7 +49,8 @@ FlatEmitter::FlatEmitter(const Computation& computation, const FlatLayout& layou
       memory_of_(dag_.size(), kNoSlot),
       stages_(options.form == FlatForm::kSample &&
               plan.groups.after.size() <= options.maximum_statements &&
-              (plan.kept.any() || plan.groups.after.size() >= kLeastInStages)) {
+              (plan.kept.any() || plan.groups.after.size() >= kLeastInStages)),
+      table_(prefix_, upper_, scalar_, options.of + "_table") {
   for (const FlatPlace& place : layout.inputs) use(place.array);
   for (const FlatPlace& place : layout.results) use(place.array);
   use("in");

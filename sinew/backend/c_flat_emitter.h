@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/backend/c_constant_table.h"
 #include "sinew/backend/c_flat_body.h"
 #include "sinew/backend/c_flat_plan.h"
 #include "sinew/backend/c_names.h"
@@ -75,7 +76,6 @@ class FlatEmitter {
   void begin_step();
   void end_step();
   void point_to(const std::string& pointer);
-  void new_constants();
   const std::string& constant(std::uint32_t i, double value);
   const std::string& input_again(std::uint32_t i, const Node& node);
   void wait_in_memory(std::uint32_t node);
@@ -114,9 +114,7 @@ class FlatEmitter {
   int middle_of_inputs_ = 0;           // where `inputs` points to; 0: there is no such pointer
   std::vector<std::uint32_t> named_;   // nodes read from memory in this stage
   std::vector<std::string> pointers_;  // to the arrays that they lie in
-  std::string table_;                  // constants, in the order of their use
-  std::size_t table_size_ = 0;
-  std::size_t window_ = 0;  // those that `number` points to now
+  ConstantTable table_;
 
   CNames given_ = {"in",   "out",    "state",   "held",    "n",       "kept",   "angle",
                    "sine", "cosine", "lane",    "zero",    "result",  "y",      "a",

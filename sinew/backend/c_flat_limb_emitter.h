@@ -2,7 +2,7 @@
 // parts:
 //   c_flat_limbs.cpp        nodes, inputs, results
 //   c_flat_limb_angles.cpp  sines and cosines
-//   c_flat_limb_memory.cpp  values that wait in memory
+//   c_flat_limb_memory.cpp  values that wait in memory, constants in a table
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "sinew/backend/c_constant_table.h"
 #include "sinew/backend/c_flat_limb_steps.h"
 #include "sinew/backend/c_flat_limbs.h"
 #include "sinew/backend/c_names.h"
@@ -37,11 +38,13 @@ class LimbEmitter {
   const program::LimbRegion& region() const { return program_.regions[at_]; }
   const program::Dag& dag() const { return region().computation.dag; }
   bool in_lanes() const { return region().lanes > 1; }
+  unsigned lanes() const { return program::vector_width(region().lanes); }
   const std::string& type() const { return types_[at_]; }
   void line(std::string_view text, std::uint32_t origin = program::kNoOrigin);
   std::string number(double value) const { return scalar_number(value, options_.scalar); }
 
   // Nodes.
+  std::string element(const FlatPlace& place) const;
   std::string text(const Source& source);
   bool is_zero(const Source& source) const;
   template <typename Lane>
@@ -72,10 +75,15 @@ class LimbEmitter {
   void sines_of_inputs();
 
   // Values that wait in memory (c_flat_limb_memory.cpp).
-  void declare_kept();
+  void declare_kept(const std::vector<std::vector<std::uint32_t>>& orders);
+  void point_to_inputs(const std::vector<std::vector<std::uint32_t>>& orders);
   void point_to(const std::string& pointer);
   void begin_step();
   void end_step();
+  bool is_constant(const Node& node) const;
+  const std::vector<std::string>& numbers(std::uint32_t i, const Node& node);
+  void constant(std::uint32_t i, const Node& node, std::string& text);
+  void declare_constants();
   void wait_in_memory(std::uint32_t node);
   const std::string& name_of(std::size_t region, std::uint32_t node);
   std::string lane_of(std::size_t region, std::uint32_t node, std::uint32_t lane);
@@ -101,6 +109,7 @@ class LimbEmitter {
   LimbNodes nodes_;
   KeptValues kept_;  // empty where no value need wait
   std::size_t step_ = 0;
+  int middle_of_inputs_ = 0;           // where `inputs` points to; 0: there is no such pointer
   std::vector<std::string> pointers_;  // to what waits there, and to sines
   InMemory& put_in_memory(std::uint32_t value);
   bool is_in_memory(std::uint32_t value) const { return memory_of_[value] != kNoSlot; }
@@ -109,6 +118,9 @@ class LimbEmitter {
   std::vector<InMemory> memory_;
   std::vector<std::string*> waiting_;                         // names of values that are kept
   std::vector<std::pair<std::size_t, std::uint32_t>> named_;  // read in this stage
+
+  ConstantTable table_;                              // where kept_ is not empty
+  std::vector<std::vector<std::string>> constants_;  // [node of any region][lane], once it is used
 
   std::map<unsigned, std::string> zeros_;  // by width: a vector of zeros
   CNames given_ = {"in", "out", "angle", "sine", "cosine", "sines", "cosines"};

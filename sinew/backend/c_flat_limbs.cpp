@@ -26,13 +26,6 @@ namespace {
 
 bool is_trigonometric(const Node& node) { return node.op == Op::kSin || node.op == Op::kCos; }
 
-std::string element(std::string_view array, std::uint32_t index) {
-  std::string text(array);
-  text += '[';
-  text += Digits(index);
-  return text += ']';
-}
-
 }  // namespace
 
 LimbEmitter::LimbEmitter(const LimbProgram& program, const FlatLayout& layout,
@@ -45,7 +38,9 @@ LimbEmitter::LimbEmitter(const LimbProgram& program, const FlatLayout& layout,
       suffix_(options.scalar == Scalar::kFloat ? "f" : ""),
       nodes_(program),
       memory_of_(nodes_.size(), kNoSlot),
-      waiting_(nodes_.size(), nullptr) {
+      waiting_(nodes_.size(), nullptr),
+      table_(options.name, upper_, scalar_, "limbs_table"),
+      constants_(nodes_.size()) {
   for (const LimbRegion& region : program.regions) {
     names_.emplace_back(region.computation.dag.size());
     live_.push_back(program::live_nodes(region.computation));
@@ -69,7 +64,7 @@ LimbBody LimbEmitter::run() {
   body_.code.reserve(nodes, kOfALine);
   kept_ = keep_values(limb_steps(program_, nodes_, orders, later_));
   sines_of_inputs();
-  if (kept_.any()) declare_kept();
+  if (kept_.any()) declare_kept(orders);
   for (at_ = 0; at_ < program_.regions.size(); ++at_) {
     for (const std::uint32_t i : orders[at_]) {
       begin_step();
@@ -80,6 +75,7 @@ LimbBody LimbEmitter::run() {
   }
   begin_step();
   write_later_results();
+  if (kept_.any()) declare_constants();
   return std::move(body_);
 }
 
@@ -160,6 +156,15 @@ bool LimbEmitter::is_zero(const LimbSource& source) const {
   return from.dag.is_constant(from.results[source.index], 0.0);
 }
 
+// A number of the caller's.
+std::string LimbEmitter::element(const FlatPlace& place) const {
+  const bool from_middle = middle_of_inputs_ != 0 && std::string_view(place.array) == "in";
+  std::string text = from_middle ? "inputs" : place.array;
+  text += '[';
+  text += Digits(static_cast<int>(place.index) - (from_middle ? middle_of_inputs_ : 0));
+  return text += ']';
+}
+
 // A number where plain numbers are wanted.
 std::string LimbEmitter::text(const LimbSource& source) {
   switch (source.kind) {
@@ -167,7 +172,7 @@ std::string LimbEmitter::text(const LimbSource& source) {
       return number(source.value);
     case LimbSource::Kind::kCaller: {
       const FlatPlace& place = layout_.inputs[source.index];
-      return element(place.array, place.index);
+      return element(place);
     }
     default:
       break;
@@ -250,10 +255,12 @@ std::optional<std::string> LimbEmitter::same_vector(const Sources& sources) {
 const std::string& LimbEmitter::value(std::uint32_t i) {
   const Node& node = dag().node(i);
   std::string& name = names_[at_][i];
+  if (is_constant(node)) {
+    constant(i, node, name);
+    return name;
+  }
   if (!name.empty()) return name;
-  if (node.op == Op::kConstant) {
-    name = number(node.value);
-  } else if (is_in_memory(nodes_.of(at_, i))) {
+  if (is_in_memory(nodes_.of(at_, i))) {
     name_of(at_, i);
   } else {
     compute(i, node);
@@ -302,7 +309,10 @@ void LimbEmitter::compute(std::uint32_t i, const Node& node) {
 template <typename Formula>
 std::string LimbEmitter::lane_by_lane(const std::vector<Ref>& operands, Formula formula) {
   std::vector<std::string> names;
-  for (const Ref ref : operands) names.push_back(value(ref));
+  for (const Ref ref : operands) {
+    const Node& node = dag().node(ref);
+    names.push_back(node.op == Op::kConstant ? number(node.value) : value(ref));
+  }
   if (!in_lanes()) return formula(names);
   return vector([&](std::uint32_t lane) {
     std::vector<std::string> of_lane;

@@ -11,6 +11,8 @@
 namespace sinew::backend {
 
 struct LimbBody {
+  CodeBlock parts;                      // the table of its constants, if it has one
+  std::vector<std::string> part_names;  // as FlatBody has them
   CodeBlock code;
   std::vector<unsigned> widths;  // of the vector types that it names: NAME_limbs4, …
   std::size_t angles = 0;        // whose sine or cosine is taken

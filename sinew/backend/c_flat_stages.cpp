@@ -1,9 +1,8 @@
 // Stages of a long flat function of one sample. What waits in memory is read in each stage that
 // needs it, and by nothing that a compiler could carry in a register from one stage to the next.
 //
-// In memory lie inputs, sines and cosines, the values that keep_values() chooses, and constants: a
-// constant of a table whose address is in a register takes three bytes less than one that is
-// addressed from the instruction.
+// In memory lie inputs, sines and cosines, the values that keep_values() chooses, and constants
+// (c_constant_table.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,8 +18,7 @@ using program::Op;
 
 namespace {
 
-// Constants that one pointer reaches, half of them to either side. A node uses four at most.
-constexpr std::size_t kWindow = 2 * kNearNumbers - 4;
+constexpr std::size_t kConstantsOfNode = 4;  // at most
 
 }  // namespace
 
@@ -35,8 +33,7 @@ void FlatEmitter::declare_kept() {
     line(fmt::format("const {} *inputs = in + {};", scalar_, middle_of_inputs_));
     point_to("inputs");
   }
-  line(fmt::format("const {} *number;", scalar_));
-  new_constants();
+  table_.declare_pointer(*block_);
 }
 
 void FlatEmitter::point_to(const std::string& pointer) { point_again(pointer, upper_, *block_); }
@@ -49,7 +46,7 @@ void FlatEmitter::begin_step() {
     for (const std::uint32_t node : named_) names_[node].clear();
     named_.clear();
   }
-  if (window_ >= kWindow) new_constants();
+  table_.make_room(kConstantsOfNode, *block_);
 }
 
 void FlatEmitter::end_step() {
@@ -58,22 +55,12 @@ void FlatEmitter::end_step() {
   ++step_;
 }
 
-void FlatEmitter::new_constants() {
-  window_ = 0;
-  line(fmt::format("number = {}_{}_table + {};", prefix_, options_.of, table_size_ + kNearNumbers));
-  point_to("number");
-}
-
-// Each use has a place of its own: what two uses share, a compiler reads into a register first, by
-// an instruction that is longer than the addresses in both of theirs.
 const std::string& FlatEmitter::constant(std::uint32_t i, double value) {
   auto& [text, place] = in_memory(i);
   if (text.empty()) text = number(value);
   if (!stages_ || value == 2.0) return text;  // a sum
-  if (table_size_++ > 0) table_ += ", ";
-  table_ += text;
   place = "NUMBER(";
-  place += Digits(static_cast<int>(window_++) - int{kNearNumbers});
+  place += Digits(table_.place({&text, 1}));
   ((place += ", ") += text) += ')';
   return place;
 }
@@ -112,14 +99,8 @@ bool FlatEmitter::rounds_product(std::uint32_t node) const {
 }
 
 void FlatEmitter::declare_constants() {
-  // Pointers may not leave the table.
-  const std::size_t least = table_size_ - window_ + kNearNumbers;
-  for (; table_size_ < least; ++table_size_) table_ += table_size_ > 0 ? ", 0" : "0";
-  const std::string table = options_.of + "_table";
-  result_.part_names.push_back(table);
-  result_.parts.add("/* Constants of the function below, in the order of their use. */");
-  result_.parts.add(
-      fmt::format("static const {} {}_{}[] = {{ {} }};", scalar_, prefix_, table, table_));
+  result_.part_names.push_back(table_.part());
+  table_.declare_table(1, result_.parts);
 }
 
 }  // namespace sinew::backend

@@ -27,8 +27,9 @@ inline constexpr std::uint32_t kStage = 40;
 // of a pointer, without AVX-512's scaling: half of them, in numbers of eight bytes.
 inline constexpr std::uint32_t kNearNumbers = 16;
 
-// Pointers into the array: more would leave too few registers for other addresses.
-inline constexpr std::uint32_t kKeptPointers = 4;
+// Pointers into the array: more would leave too few registers for other addresses (five, of the
+// fourteen that gcc has where arrays are aligned).
+inline constexpr std::uint32_t kKeptPointers = 9;
 
 struct KeptValues {
   std::vector<std::uint32_t> slot;  // of a value: its place in the array; kNoSlot: never there
