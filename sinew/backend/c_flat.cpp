@@ -8,6 +8,9 @@
 namespace sinew::backend {
 namespace {
 
+// Sines of more angles than this are computed in a loop.
+constexpr std::size_t kAnglesUnrolled = 16;
+
 // Everything that is defined once for each kind of processor.
 FieldList renamed(const std::string& name, std::initializer_list<const FlatBody*> bodies,
                   const LimbBody& limbs) {
@@ -98,6 +101,8 @@ RenderedSource flat_source(const program::ScalarProgram& scalar,
   fields.list("renamed", renamed(name, {&sample, &block, &update}, side_by_side));
   fields.section("has_angles", sample.angles + update.angles > 0);
   if (sample.angles + update.angles > 0) {
+    const std::size_t together = has_limbs ? side_by_side.angles : sample.angles;
+    fields.section("many_angles", together > kAnglesUnrolled);
     fields.text("sincos", render("c/sincos.c.mustache", fields));
   }
   Blocks blocks = {{"parts", &sample.parts}, {"lanes_parts", &block.parts}};
