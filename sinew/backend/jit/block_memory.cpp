@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "sinew/backend/jit/constant_table.h"
 #include "sinew/backend/jit/ir.h"
 
 namespace sinew::backend {
@@ -98,15 +99,8 @@ void BlockMemory::end() {
   if (table_ == nullptr) return;
   std::vector<LLVMValueRef> numbers;
   for (const double value : constants_) numbers.push_back(LLVMConstReal(number_, value));
-  const LLVMValueRef list = LLVMConstArray2(number_, numbers.data(), numbers.size());
-  const LLVMValueRef table =
-      LLVMAddGlobal(LLVMGetGlobalParent(place_.function), LLVMTypeOf(list), "constants");
-  LLVMSetInitializer(table, list);
-  LLVMSetGlobalConstant(table, true);
-  LLVMSetLinkage(table, LLVMPrivateLinkage);
-  LLVMSetAlignment(table, 64);
-  LLVMReplaceAllUsesWith(table_, table);
-  LLVMDeleteGlobal(table_);
+  constexpr unsigned kLine = 64;
+  LLVMSetAlignment(become_table(table_, numbers, "constants"), kLine);
 }
 
 }  // namespace sinew::backend

@@ -18,15 +18,19 @@ LLVMValueRef ConstantTable::load(std::uint64_t bits, LLVMTypeRef type) {
                         LLVMBuildGEP2(place_.builder, number_, pointer_, &at, 1, ""), "");
 }
 
-void ConstantTable::end() {
-  const LLVMValueRef list = LLVMConstArray2(number_, constants_.data(), constants_.size());
-  const LLVMValueRef table =
-      LLVMAddGlobal(LLVMGetGlobalParent(place_.function), LLVMTypeOf(list), "sine_constants");
+void ConstantTable::end() { become_table(begin_, constants_, "sine_constants"); }
+
+LLVMValueRef become_table(LLVMValueRef begin, std::vector<LLVMValueRef>& numbers,
+                          const char* name) {
+  const LLVMTypeRef number = LLVMGlobalGetValueType(begin);
+  const LLVMValueRef list = LLVMConstArray2(number, numbers.data(), numbers.size());
+  const LLVMValueRef table = LLVMAddGlobal(LLVMGetGlobalParent(begin), LLVMTypeOf(list), name);
   LLVMSetInitializer(table, list);
   LLVMSetGlobalConstant(table, true);
   LLVMSetLinkage(table, LLVMPrivateLinkage);
-  LLVMReplaceAllUsesWith(begin_, table);
-  LLVMDeleteGlobal(begin_);
+  LLVMReplaceAllUsesWith(begin, table);
+  LLVMDeleteGlobal(begin);
+  return table;
 }
 
 }  // namespace sinew::backend

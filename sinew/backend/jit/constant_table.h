@@ -11,6 +11,10 @@
 
 namespace sinew::backend {
 
+// The global that stood for a table until its numbers were known is that table from now on.
+// Returns the table.
+LLVMValueRef become_table(LLVMValueRef begin, std::vector<LLVMValueRef>& numbers, const char* name);
+
 class ConstantTable {
  public:
   explicit ConstantTable(const Place& place);
