@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstdint>
 
-#include "sinew/backend/jit/constant_table.h"
 #include "sinew/backend/jit/ir.h"
 
 namespace sinew::backend {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "sinew/backend/jit/constant_table.h"
 #include "sinew/backend/jit/ir.h"
+#include "sinew/backend/jit/sine_constants.h"
 
 namespace sinew::backend {
 namespace {
@@ -105,7 +105,7 @@ class BlockSines {
 
   // Both return the sum of the magnitudes of all angles.
   LLVMValueRef in_registers() {
-    ConstantTable table(place_);
+    SineConstants table(place_);
     const Ir ir = arithmetic(table);
     LLVMValueRef sum = LLVMConstNull(doubles_);
     const std::size_t in_step = type_ == doubles_ ? kInStep : kInStepOfFloats;
@@ -125,7 +125,7 @@ class BlockSines {
   }
 
   LLVMValueRef in_memory() {
-    ConstantTable table(place_);
+    SineConstants table(place_);
     const Ir ir = arithmetic(table);
     LLVMValueRef sum = LLVMConstNull(doubles_);
     std::size_t at = 0;
@@ -144,7 +144,7 @@ class BlockSines {
     return sum;
   }
 
-  Ir arithmetic(ConstantTable& table) const {
+  Ir arithmetic(SineConstants& table) const {
     return {builder_, doubles_, place_.fuse,
             [&table](std::uint64_t bits, LLVMTypeRef type) { return table.load(bits, type); }};
   }

@@ -31,6 +31,19 @@ LLVMValueRef hidden(LLVMBuilderRef builder, LLVMValueRef pointer) {
   return LLVMBuildCall2(builder, type, nothing, &pointer, 1, "");
 }
 
+LLVMValueRef become_table(LLVMValueRef begin, std::vector<LLVMValueRef>& numbers,
+                          const char* name) {
+  const LLVMTypeRef number = LLVMGlobalGetValueType(begin);
+  const LLVMValueRef list = LLVMConstArray2(number, numbers.data(), numbers.size());
+  const LLVMValueRef table = LLVMAddGlobal(LLVMGetGlobalParent(begin), LLVMTypeOf(list), name);
+  LLVMSetInitializer(table, list);
+  LLVMSetGlobalConstant(table, true);
+  LLVMSetLinkage(table, LLVMPrivateLinkage);
+  LLVMReplaceAllUsesWith(begin, table);
+  LLVMDeleteGlobal(begin);
+  return table;
+}
+
 Ir::Ir(LLVMBuilderRef builder, LLVMTypeRef type, bool fuse, LoadConstant constant)
     : builder_(builder),
       context_(LLVMGetTypeContext(type)),

@@ -7,11 +7,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace sinew::backend {
 
 // The same, but LLVM does not look into it: what address it is, or where it lies.
 LLVMValueRef hidden(LLVMBuilderRef builder, LLVMValueRef pointer);
+
+// The global that stood for a table until its numbers were known is that table from now on.
+// Returns the table.
+LLVMValueRef become_table(LLVMValueRef begin, std::vector<LLVMValueRef>& numbers, const char* name);
 
 class Ir {
  public:

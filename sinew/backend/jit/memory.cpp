@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "sinew/backend/jit/constant_table.h"
 #include "sinew/backend/jit/ir.h"
 
 namespace sinew::backend {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "sinew/backend/jit/constant_table.h"
 #include "sinew/backend/jit/ir_in_step.h"
+#include "sinew/backend/jit/sine_constants.h"
 
 namespace sinew::backend {
 namespace {
@@ -185,7 +185,7 @@ SincosValues load_values(const Ir& ir, LLVMValueRef array, const SincosValues& v
 
 LLVMValueRef fast_sincos_from_table(const Place& place, const std::vector<LLVMValueRef>& angles,
                                     SincosValues& values) {
-  ConstantTable table(place);
+  SineConstants table(place);
   const Ir ir(place.builder, LLVMTypeOf(angles.front()), place.fuse,
               [&](std::uint64_t bits, LLVMTypeRef type) { return table.load(bits, type); });
   const LLVMValueRef covered = fast_sincos(ir, place.builder, angles, values);
@@ -208,7 +208,7 @@ void fast_sincos_in_loop(const Place& place, LLVMValueRef last, std::size_t n, L
   const LLVMTypeRef type = LLVMTypeOf(last);
   const LLVMContextRef context = LLVMGetTypeContext(type);
   const LLVMTypeRef integer = LLVMInt64TypeInContext(context);
-  ConstantTable table(place);
+  SineConstants table(place);
   const Ir ir(place.builder, type, place.fuse,
               [&](std::uint64_t bits, LLVMTypeRef lane) { return table.load(bits, lane); });
   values.sine.resize(n, nullptr);

@@ -1,5 +1,5 @@
-// A table of constants behind a pointer of its own: an instruction takes one number from there for
-// all lanes, with an address of one byte.
+// The constants of sines, in a table behind a pointer of its own: an instruction takes one number
+// from there for all lanes, with an address of one byte.
 #pragma once
 
 #include <llvm-c/Core.h>
@@ -11,13 +11,9 @@
 
 namespace sinew::backend {
 
-// The global that stood for a table until its numbers were known is that table from now on.
-// Returns the table.
-LLVMValueRef become_table(LLVMValueRef begin, std::vector<LLVMValueRef>& numbers, const char* name);
-
-class ConstantTable {
+class SineConstants {
  public:
-  explicit ConstantTable(const Place& place);
+  explicit SineConstants(const Place& place);
   // A load. A place for each use, so that LLVM does not hold it in a register for the next one.
   LLVMValueRef load(std::uint64_t bits, LLVMTypeRef type);
   void end();
