@@ -49,17 +49,27 @@ struct JitCode {
   std::shared_ptr<void> owner;  // of the machine code
 };
 
+// Of a function that calls machine code: -fsanitize=function looks for the type of what is called
+// in the bytes before it, which belong to nobody here.
+#ifdef __clang__
+#define SINEW_CALLS_MACHINE_CODE [[clang::no_sanitize("function")]]
+#else
+#define SINEW_CALLS_MACHINE_CODE
+#endif
+
 // `Number` is double or float. Of float all numbers are, but for sines and cosines, which are
 // computed in double and rounded once, as in generated C.
 template <typename Number>
 class BasicJitFunction {
  public:
   // in: computation.inputs numbers; out: computation.results.size() numbers. They may not overlap.
-  void operator()(const Number* in, Number* out) const noexcept { single_(in, out); }
+  SINEW_CALLS_MACHINE_CODE void operator()(const Number* in, Number* out) const noexcept {
+    single_(in, out);
+  }
   // n samples: input i of sample k at in[i * n + k], result j of sample k at out[j * n + k]. A
   // sample's results are bit for bit the same wherever in a batch of whatever size it stands; and,
   // without limbs side by side, those of a single call.
-  void batch(const Number* in, Number* out, std::size_t n) const noexcept;
+  SINEW_CALLS_MACHINE_CODE void batch(const Number* in, Number* out, std::size_t n) const noexcept;
 
   std::size_t code_bytes() const { return code_.code_bytes; }  // of the single-sample function
   std::size_t batch_code_bytes() const { return code_.batch_code_bytes; }  // of the block function
