@@ -30,18 +30,13 @@ std::uint32_t operations(const Robot& robot, const std::string& solver, bool flo
 
 TEST(Operations, AreAsFewAsDocumented) {
   if (published_robots().empty()) GTEST_SKIP() << "no robots in " SINEW_SHARED_DIR "/robots";
-  std::size_t found = 0;
-  for (const Robot& robot : published_robots()) {
-    for (const Case& c : kCases) {
-      if (c.robot != robot.name) continue;
-      SCOPED_TRACE(c.robot);
-      ++found;
-      EXPECT_LE(operations(robot, "rnea", c.floating), kMost * c.rnea);
-      EXPECT_LE(operations(robot, "aba", c.floating), kMost * c.aba);
-      EXPECT_LE(operations(robot, "crba", c.floating), kMost * c.crba);
-    }
+  for (const Case& c : kCases) {
+    SCOPED_TRACE(c.robot);
+    const Robot robot = published_robot(c.robot);
+    EXPECT_LE(operations(robot, "rnea", c.floating), kMost * c.rnea);
+    EXPECT_LE(operations(robot, "aba", c.floating), kMost * c.aba);
+    EXPECT_LE(operations(robot, "crba", c.floating), kMost * c.crba);
   }
-  EXPECT_EQ(found, kCases.size());
 }
 
 }  // namespace

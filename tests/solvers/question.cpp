@@ -7,6 +7,8 @@
 #include <map>
 #include <random>
 #include <sstream>
+#include <stdexcept>
+#include <utility>
 
 namespace sinew::test {
 
@@ -24,6 +26,13 @@ std::vector<Robot> published_robots() {
   std::sort(robots.begin(), robots.end(),
             [](const Robot& a, const Robot& b) { return a.name < b.name; });
   return robots;
+}
+
+Robot published_robot(const std::string& name) {
+  for (Robot& robot : published_robots()) {
+    if (robot.name == name) return std::move(robot);
+  }
+  throw std::invalid_argument("no robot " + name + " in " SINEW_SHARED_DIR "/robots");
 }
 
 namespace {

@@ -21,6 +21,8 @@ struct Robot {
 
 // Every URDF of the test material; empty where it is not there.
 std::vector<Robot> published_robots();
+// The one of this name, which is a test's fault if there is none. Precondition: they are there.
+Robot published_robot(const std::string& name);
 
 class Question {
  public:
