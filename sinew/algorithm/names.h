@@ -11,6 +11,8 @@
 namespace sinew::algorithm {
 
 inline constexpr std::string_view kAlgorithmNamespace = "https://w3id.org/sinew/algorithm#";
+// Role of a node that stands for two: a frame seen from another, a driver of an element.
+inline constexpr std::string_view kPair = "https://w3id.org/sinew/algorithm#Pair";
 inline constexpr std::string_view kTreeNamespace = "https://w3id.org/sinew/kinematic-tree#";
 inline constexpr std::string_view kStepNamespace = "https://w3id.org/sinew/steps#";
 inline constexpr std::string_view kUnitNamespace = "http://qudt.org/vocab/unit/";

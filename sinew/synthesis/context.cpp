@@ -141,7 +141,7 @@ void Context::closure_with_counts(std::string_view operation, std::vector<BlockI
 }
 
 Id pair_of(graph::Terms& terms, Id a, Id b) {
-  return terms.derived(terms.iri("https://w3id.org/sinew/algorithm#Pair"), {a, b});
+  return terms.derived(terms.iri(algorithm::kPair), {a, b});
 }
 
 Id Context::pair(Id a, Id b) { return pair_of(builder.terms(), a, b); }

@@ -10,7 +10,7 @@ std::vector<Id> driver_elements(graph::Store& store, const Robot& robot, const Q
                                 const MotionDrivers& drivers, const Asked& asked, Element kind) {
   std::vector<Id> found;
   graph::Terms& terms = store.terms();
-  const Id pair = terms.iri(std::string(algorithm::kAlgorithmNamespace) + "Pair");
+  const Id pair = terms.iri(algorithm::kPair);
   if (kind == Element::kConstraint)
     for (const ConstraintDirection& direction : drivers.directions)
       found.push_back(direction.element);
@@ -64,7 +64,7 @@ void write_driver_list(const Context& context, graph::Transaction& transaction) 
     return terms.iri(std::string(algorithm::kAlgorithmNamespace) + std::string(name));
   };
   const algorithm::Names& names = context.builder.names();
-  const Id pair = sa("Pair");
+  const Id pair = terms.iri(algorithm::kPair);
   std::vector<Id> list;
   for (const DriverGroup& group : context.drivers.groups) {
     const Id node = group.element;
